@@ -1,0 +1,58 @@
+//! Centre line of one bead. Stages that lay lines themselves (skirt, brim, teeth, plates, walls,
+//! infill) make paths; `toolpath` puts them in printing order.
+
+use super::Role;
+use crate::polygon::DVec2;
+
+/// Centre line of one bead, open or closed.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Path {
+    /// What the bead is for.
+    pub role: Role,
+    /// Points of the centre line, mm. A closed path does not repeat its first point.
+    pub points: Vec<DVec2>,
+    /// Whether the bead returns to its first point.
+    pub closed: bool,
+    /// Bead width along the path, mm.
+    pub width: Width,
+}
+
+/// Width of a bead along its path.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub enum Width {
+    /// The same everywhere, mm.
+    Uniform(f64),
+    /// One width per point, mm; between two points it changes linearly.
+    Varying(Vec<f64>),
+}
+
+impl Width {
+    /// Width at point `index`.
+    pub fn at(&self, index: usize) -> f64 {
+        match self {
+            Width::Uniform(w) => *w,
+            Width::Varying(widths) => widths[index],
+        }
+    }
+}
+
+impl Path {
+    /// A closed bead of one width.
+    pub fn closed(role: Role, points: Vec<DVec2>, width: f64) -> Self {
+        Path { role, points, closed: true, width: Width::Uniform(width) }
+    }
+
+    /// An open bead of one width.
+    pub fn open(role: Role, points: Vec<DVec2>, width: f64) -> Self {
+        Path { role, points, closed: false, width: Width::Uniform(width) }
+    }
+
+    /// Length of the centre line, the closing edge included, mm.
+    pub fn length(&self) -> f64 {
+        let open: f64 = self.points.windows(2).map(|w| w[0].distance(w[1])).sum();
+        match (self.closed, self.points.first(), self.points.last()) {
+            (true, Some(a), Some(b)) => open + a.distance(*b),
+            _ => open,
+        }
+    }
+}
