@@ -147,5 +147,7 @@ pub fn by_x_then_y(a: DVec2, b: DVec2) -> std::cmp::Ordering {
 
 fn compare_contours(a: &Contour, b: &Contour) -> std::cmp::Ordering {
     let by_points = a.points.iter().zip(&b.points).map(|(&p, &q)| by_x_then_y(p, q));
-    by_points.fold(std::cmp::Ordering::Equal, |found, next| found.then(next)).then(a.points.len().cmp(&b.points.len()))
+    by_points
+        .fold(std::cmp::Ordering::Equal, |found, next| found.then(next))
+        .then(a.points.len().cmp(&b.points.len()))
 }

@@ -26,7 +26,8 @@ fn crosses_ray(a: DVec2, b: DVec2, p: DVec2) -> bool {
 
 /// Gives each clockwise contour to the smallest counter-clockwise one around it.
 pub(super) fn group_into_islands(contours: &[Contour]) -> Vec<Polygon> {
-    let (outers, holes): (Vec<&Contour>, Vec<&Contour>) = contours.iter().partition(|c| c.signed_area() > 0.0);
+    let (outers, holes): (Vec<&Contour>, Vec<&Contour>) =
+        contours.iter().partition(|c| c.signed_area() > 0.0);
     let frames: Vec<(f64, Option<Bounds>)> = outers.iter().map(|c| (c.signed_area(), c.bounds())).collect();
     let mut islands: Vec<Polygon> =
         outers.iter().map(|&outer| Polygon { outer: outer.clone(), holes: Vec::new() }).collect();
@@ -56,7 +57,8 @@ mod tests {
 
     #[test]
     fn a_point_level_with_a_vertex_counts_it_once() {
-        let diamond = Contour::new(vec![dvec2(0.0, -1.0), dvec2(1.0, 0.0), dvec2(0.0, 1.0), dvec2(-1.0, 0.0)]);
+        let diamond =
+            Contour::new(vec![dvec2(0.0, -1.0), dvec2(1.0, 0.0), dvec2(0.0, 1.0), dvec2(-1.0, 0.0)]);
         assert!(diamond.contains(dvec2(0.0, 0.0)));
         assert!(!diamond.contains(dvec2(-2.0, 0.0)));
         assert!(!diamond.contains(dvec2(2.0, 0.0)));
