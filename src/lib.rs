@@ -26,3 +26,4 @@ pub mod polygon;
 pub mod printer;
 pub mod region;
 pub mod slice;
+pub mod toolpath;
