@@ -25,3 +25,4 @@ pub mod options;
 pub mod polygon;
 pub mod printer;
 pub mod region;
+pub mod toolpath;

@@ -1,0 +1,3 @@
+//! Centre lines of beads, in printing order.
+
+pub mod medial;
