@@ -2,6 +2,7 @@
 
 pub mod bead;
 pub mod infill;
+pub mod medial;
 pub mod order;
 pub mod seam;
 pub mod walls;
