@@ -23,8 +23,11 @@
 pub mod gcode;
 pub mod mesh;
 pub mod options;
+pub mod pipeline;
 pub mod polygon;
 pub mod printer;
 pub mod region;
+pub mod settings;
 pub mod slice;
 pub mod toolpath;
+pub mod view;

@@ -50,6 +50,9 @@ pub struct LayerInput<'a> {
     pub height: f64,
     /// Beads in printing order.
     pub paths: &'a [Path],
+    /// For each path whether the way to it crosses an outline of the part; filament is pulled back
+    /// on such ways only, elsewhere what oozes stays inside.
+    pub crosses_outline: &'a [bool],
 }
 
 /// A layer's text and what the rest of the program needs to know about it.

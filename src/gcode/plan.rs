@@ -40,8 +40,8 @@ pub struct LayerPlan {
 /// Plans one layer. Paths without length are left out.
 pub fn plan_layer(layer: &LayerInput<'_>, options: &GcodeOptions) -> LayerPlan {
     let mut planner = Planner::new(layer, options);
-    for path in layer.paths {
-        planner.path(path);
+    for (path, &crosses) in layer.paths.iter().zip(layer.crosses_outline) {
+        planner.path(path, crosses);
     }
     LayerPlan {
         index: layer.index,
@@ -84,6 +84,7 @@ struct Planner<'a> {
     /// State of the machine while the moves are laid down.
     start: Option<Place>,
     at: Place,
+    crosses_outline: bool,
     role: Option<Role>,
     stated_width: Option<u32>,
     first_fan: Option<u8>,
@@ -103,6 +104,7 @@ impl<'a> Planner<'a> {
             layer_fan: 0,
             start: None,
             at: Place::default(),
+            crosses_outline: false,
             role: None,
             stated_width: None,
             first_fan: None,
@@ -114,7 +116,9 @@ impl<'a> Planner<'a> {
         planner
     }
 
-    fn path(&mut self, path: &Path) {
+    fn path(&mut self, path: &Path, crosses_outline: bool) {
+        // A path too small to print leaves its way to the next one.
+        self.crosses_outline |= crosses_outline;
         let places: Vec<Place> = path.points.iter().map(|&p| Place::of(p)).collect();
         let Some((&first, rest)) = places.split_first() else { return };
         if rest.iter().all(|&p| p == first) {
@@ -227,10 +231,12 @@ impl<'a> Planner<'a> {
         if self.start.is_none() {
             self.start = Some(to);
         } else if self.at != to {
-            let travel =
-                Hop { to, from_z: self.z, to_z: self.z, distance: self.at.distance(to), retracted: 0 };
+            let distance = self.at.distance(to);
+            let oozes_outside = self.crosses_outline;
+            let travel = Hop { to, from_z: self.z, to_z: self.z, distance, oozes_outside, retracted: 0 };
             travel.moves(self.options, &mut self.moves);
         }
+        self.crosses_outline = false;
         self.at = to;
     }
 }
@@ -243,15 +249,18 @@ pub(super) struct Hop {
     pub(super) to_z: i32,
     /// How far it is, mm.
     pub(super) distance: f64,
+    /// Whether the way leaves the part, so that what oozes would show.
+    pub(super) oozes_outside: bool,
     /// Filament that is pulled back already.
     pub(super) retracted: i32,
 }
 
 impl Hop {
-    /// Retracts and lifts if the way is long enough, travels, and undoes both.
+    /// Retracts and lifts if the way leaves the part and is long enough, travels, and undoes both.
     pub(super) fn moves(&self, options: &GcodeOptions, moves: &mut Vec<Move>) {
         let retraction = &options.retraction;
-        let long = self.distance >= retraction.min_travel && retraction.length > 0.0;
+        let reaches = self.distance >= retraction.min_travel && retraction.length > 0.0;
+        let long = reaches && self.oozes_outside;
         let pulled =
             if long { filament_steps(retraction.length).max(self.retracted) } else { self.retracted };
         let hop = if long { micrometres(retraction.z_hop) } else { 0 };

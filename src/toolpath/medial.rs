@@ -66,6 +66,13 @@ impl Default for ThinFill {
     }
 }
 
+impl ThinFill {
+    /// Beads that a nozzle of this diameter, mm, can lay: half to twice as wide.
+    pub fn for_nozzle(diameter: f64, role: Role) -> ThinFill {
+        ThinFill { role, min_width: 0.5 * diameter, max_width: 2.0 * diameter, ..ThinFill::default() }
+    }
+}
+
 /// The beads in a thin area and what they leave.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ThinBeads {

@@ -1,0 +1,9 @@
+//! Pictures: scenes of strokes and labels, made from what the stages give, written as SVG or
+//! painted by the wasm layer.
+
+pub mod model;
+pub mod scene;
+pub mod svg;
+
+pub use model::{ModelPicture, Viewpoint};
+pub use scene::{Ink, Item, Scene};
