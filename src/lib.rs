@@ -31,3 +31,5 @@ pub mod settings;
 pub mod slice;
 pub mod toolpath;
 pub mod view;
+#[cfg(target_arch = "wasm32")]
+pub mod wasm;

@@ -91,7 +91,8 @@ impl Settings {
     ) -> Result<Settings, SettingsError> {
         let mut tree = to_tree(&Settings::default());
         for text in files {
-            let found = serde_json::from_str(text).map_err(|e| SettingsError::NotJson { cause: e.to_string() })?;
+            let found =
+                serde_json::from_str(text).map_err(|e| SettingsError::NotJson { cause: e.to_string() })?;
             overlay(&mut tree, found, "")?;
         }
         for assignment in assignments {
@@ -153,9 +154,10 @@ fn overlay(tree: &mut Value, change: Value, path: &str) -> Result<(), SettingsEr
                 None => Err(SettingsError::Unknown { path }),
             }
         }),
-        (Value::Object(_), other) => {
-            Err(SettingsError::Wrong { path: path.to_owned(), cause: format!("expected a group of settings, found {other}") })
-        }
+        (Value::Object(_), other) => Err(SettingsError::Wrong {
+            path: path.to_owned(),
+            cause: format!("expected a group of settings, found {other}"),
+        }),
         (place, value) => {
             *place = value;
             Ok(())
@@ -165,7 +167,9 @@ fn overlay(tree: &mut Value, change: Value, path: &str) -> Result<(), SettingsEr
 
 fn flatten(tree: &Value, path: &str, lines: &mut Vec<(String, String)>) {
     match tree {
-        Value::Object(map) => map.iter().for_each(|(key, value)| flatten(value, &join_path(path, key), lines)),
+        Value::Object(map) => {
+            map.iter().for_each(|(key, value)| flatten(value, &join_path(path, key), lines))
+        }
         Value::String(word) => lines.push((path.to_owned(), word.replace('\n', "\\n"))),
         other => lines.push((path.to_owned(), other.to_string())),
     }

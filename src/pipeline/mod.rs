@@ -21,8 +21,8 @@ use crate::mesh::LoadedModel;
 use crate::mesh::Mesh;
 use crate::region::Path;
 use crate::settings::Settings;
-use crate::slice::heights::plan_layers;
 use crate::slice::LayerSpec;
+use crate::slice::heights::plan_layers;
 
 /// Milliseconds since some fixed moment; the core has no clock of its own.
 pub type Clock<'a> = &'a dyn Fn() -> f64;
@@ -194,8 +194,10 @@ impl Job {
     /// Joins the layers, all of which must have been added.
     pub fn finish(mut self, clock: Clock) -> Result<Finished, JobError> {
         let missing = |index: usize| move || JobError::LayerMissing { index };
-        let take = |(index, layer): (usize, &mut Option<LayerSummary>)| layer.take().ok_or_else(missing(index));
-        let summaries: Vec<LayerSummary> = self.layers.iter_mut().enumerate().map(take).collect::<Result<_, _>>()?;
+        let take =
+            |(index, layer): (usize, &mut Option<LayerSummary>)| layer.take().ok_or_else(missing(index));
+        let summaries: Vec<LayerSummary> =
+            self.layers.iter_mut().enumerate().map(take).collect::<Result<_, _>>()?;
         let started = clock();
         let notes = FileNotes { head: &[], settings: &self.settings.lines() };
         let joined = join(&summaries, &self.settings.gcode_options(), &notes).map_err(JobError::Gcode)?;
@@ -210,11 +212,16 @@ impl Job {
     fn report(&self, joined: &Joined) -> Report {
         let rows = |m: &DMat4| m.transpose().to_cols_array_2d();
         let placements: Vec<[[f64; 4]; 4]> = self.placements.iter().map(rows).collect();
-        let bounds = self.mesh.bounds().map_or([[0.0; 3]; 2], |b| [b.min, b.max].map(|v| v.as_dvec3().to_array()));
+        let bounds =
+            self.mesh.bounds().map_or([[0.0; 3]; 2], |b| [b.min, b.max].map(|v| v.as_dvec3().to_array()));
         let totals = &joined.totals;
         Report {
             engine: engine_name(),
-            model: ModelReport { triangles: self.mesh.triangles.len(), bounds, volume_mm3: self.mesh.volume() },
+            model: ModelReport {
+                triangles: self.mesh.triangles.len(),
+                bounds,
+                volume_mm3: self.mesh.volume(),
+            },
             placement: placements.first().copied().unwrap_or_default(),
             placements,
             layers: self.specs.len(),

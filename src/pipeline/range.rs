@@ -93,7 +93,7 @@ pub struct RangeMeta {
 
 /// Works the layers `plan.first..plan.last` from the given triangles, which must hold all that
 /// cross the planes of `plan.specs`, in mesh order.
-pub fn slice_range(
+pub(super) fn slice_range(
     plan: &RangePlan,
     mesh: &Mesh,
     triangles: impl Iterator<Item = u32> + Clone,
@@ -208,7 +208,9 @@ fn lay_paths(
         }
     }
     for (role, area) in thin {
-        parts.fills.extend(fill_thin(&area, &ThinFill::for_nozzle(settings.printer.nozzle_diameter, role)).paths);
+        parts
+            .fills
+            .extend(fill_thin(&area, &ThinFill::for_nozzle(settings.printer.nozzle_diameter, role)).paths);
     }
     for (_, path) in &mut parts.walls {
         start_at_seam(&mut path.points, settings.seam.position);

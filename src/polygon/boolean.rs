@@ -55,7 +55,8 @@ impl PolygonSet {
         if sets.peek().is_none() {
             return first.clone();
         }
-        let paths: Paths64 = std::iter::once(first).chain(sets).flat_map(|s| to_paths(s.contours())).collect();
+        let paths: Paths64 =
+            std::iter::once(first).chain(sets).flat_map(|s| to_paths(s.contours())).collect();
         run(ClipType::Union, paths, Paths64::new())
     }
 

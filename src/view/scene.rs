@@ -34,11 +34,41 @@ impl Ink {
             Ink::Bead(role) => role_colour(role),
             Ink::UnknownBead => "#8a8f98",
             Ink::Travel => "#5b8fd9",
-            Ink::Outline => if dark { "#e8eaed" } else { "#202124" },
-            Ink::Part => if dark { "#3c4450" } else { "#dde3ea" },
-            Ink::Bed => if dark { "#7d8590" } else { "#8c959f" },
-            Ink::Grid => if dark { "#2d333b" } else { "#e2e6ea" },
-            Ink::Text => if dark { "#e8eaed" } else { "#202124" },
+            Ink::Outline => {
+                if dark {
+                    "#e8eaed"
+                } else {
+                    "#202124"
+                }
+            }
+            Ink::Part => {
+                if dark {
+                    "#3c4450"
+                } else {
+                    "#dde3ea"
+                }
+            }
+            Ink::Bed => {
+                if dark {
+                    "#7d8590"
+                } else {
+                    "#8c959f"
+                }
+            }
+            Ink::Grid => {
+                if dark {
+                    "#2d333b"
+                } else {
+                    "#e2e6ea"
+                }
+            }
+            Ink::Text => {
+                if dark {
+                    "#e8eaed"
+                } else {
+                    "#202124"
+                }
+            }
         }
     }
 }
@@ -158,13 +188,23 @@ fn strand_items(strand: &Strand) -> Vec<Item> {
 }
 
 fn outline_items(area: &PolygonSet) -> Vec<Item> {
-    let stroke = |points: Vec<DVec2>| Item::Stroke { points, closed: true, width: LineWidth::Px(1.0), ink: Ink::Outline };
+    let stroke = |points: Vec<DVec2>| Item::Stroke {
+        points,
+        closed: true,
+        width: LineWidth::Px(1.0),
+        ink: Ink::Outline,
+    };
     area.contours().iter().map(|c| stroke(c.points.clone())).collect()
 }
 
 /// The bed's border and a line every centimetre.
 fn bed_items(bed: Bounds) -> Vec<Item> {
-    let line = |a: DVec2, b: DVec2| Item::Stroke { points: vec![a, b], closed: false, width: LineWidth::Px(1.0), ink: Ink::Grid };
+    let line = |a: DVec2, b: DVec2| Item::Stroke {
+        points: vec![a, b],
+        closed: false,
+        width: LineWidth::Px(1.0),
+        ink: Ink::Grid,
+    };
     let steps = |low: f64, high: f64| {
         let count = ((high - low) / BED_LINES).ceil() as usize;
         (1..count).map(move |i| low + i as f64 * BED_LINES)

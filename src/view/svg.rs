@@ -20,7 +20,11 @@ impl Scene {
              viewBox=\"{left:.4} {top:.4} {:.4} {:.4}\">\n",
             size.x, size.y
         );
-        let _ = writeln!(svg, "<rect x=\"{left:.4}\" y=\"{top:.4}\" width=\"{:.4}\" height=\"{:.4}\" fill=\"#fff\"/>", size.x, size.y);
+        let _ = writeln!(
+            svg,
+            "<rect x=\"{left:.4}\" y=\"{top:.4}\" width=\"{:.4}\" height=\"{:.4}\" fill=\"#fff\"/>",
+            size.x, size.y
+        );
         svg.push_str("<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n");
         for item in &self.items {
             write_item(&mut svg, item, scale);
@@ -38,11 +42,16 @@ fn write_item(svg: &mut String, item: &Item, scale: f64) {
                 LineWidth::Px(px) => px / scale,
             };
             let colour = ink.colour(false);
-            let _ = writeln!(svg, "<path d=\"{}\" stroke=\"{colour}\" stroke-width=\"{width:.4}\"/>", path_data(points, *closed));
+            let _ = writeln!(
+                svg,
+                "<path d=\"{}\" stroke=\"{colour}\" stroke-width=\"{width:.4}\"/>",
+                path_data(points, *closed)
+            );
         }
         Item::Area { area, ink } => {
             let colour = ink.colour(false);
-            let _ = writeln!(svg, "<path d=\"{}\" fill=\"{colour}\" fill-rule=\"evenodd\"/>", area_data(area));
+            let _ =
+                writeln!(svg, "<path d=\"{}\" fill=\"{colour}\" fill-rule=\"evenodd\"/>", area_data(area));
         }
         Item::Label { at, text } => {
             let size = 14.0 / scale;
