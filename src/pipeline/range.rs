@@ -110,8 +110,9 @@ pub(super) fn slice_range(
     let exposed = clock();
     result.meta.timing.slice = sliced - started;
     result.meta.timing.regions = exposed - sliced;
-    for place in plan.first..plan.last {
-        let paths = lay_paths(plan, place, &areas[place], &exposures, &mut result.meta, clock);
+    let printed = areas.iter().enumerate().take(plan.last).skip(plan.first);
+    for (place, area) in printed {
+        let paths = lay_paths(plan, place, area, &exposures, &mut result.meta, clock);
         let before = clock();
         let spec = &plan.specs[place];
         let input = LayerInput {
