@@ -108,7 +108,7 @@ fn moves_of(text: &[u8], start: [f64; 3]) -> Vec<ReadMove> {
 }
 
 fn loops() -> impl Strategy<Value = Vec<Path>> {
-    let polygon = (3..40_usize, 1.0..40.0_f64, 20.0..200.0_f64, 0..Role::ALL.len());
+    let polygon = (3..200_usize, 0.5..40.0_f64, 20.0..200.0_f64, 0..Role::ALL.len());
     let one = polygon.prop_map(|(n, radius, center, role)| {
         let point = |k: usize| {
             let (sin, cos) = (k as f64 / n as f64 * std::f64::consts::TAU).sin_cos();
@@ -132,6 +132,10 @@ proptest! {
         let mut options = GcodeOptions::default();
         options.printer.acceleration = acceleration;
         options.printer.travel_acceleration = travel;
+        // Fast enough that small circles have to be slowed down.
+        options.filament.max_volumetric_speed = 100.0;
+        (options.speed.outer_wall, options.speed.inner_wall, options.speed.infill) = (120.0, 200.0, 200.0);
+        (options.speed.skirt, options.speed.brim, options.speed.support) = (150.0, 150.0, 150.0);
         let input = LayerInput { index: 1, print_z: 0.4, height: 0.2, paths: &paths };
         let made = layer_gcode(&input, &options);
         let start = made.summary.stops.expect("text").start;
