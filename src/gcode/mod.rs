@@ -148,9 +148,14 @@ impl Place {
         dvec2(f64::from(self.x), f64::from(self.y)) / 1000.0
     }
 
+    /// The way to another place, mm.
+    pub fn way(self, to: Place) -> DVec2 {
+        dvec2(f64::from(to.x) - f64::from(self.x), f64::from(to.y) - f64::from(self.y)) * 0.001
+    }
+
     /// Distance in mm.
     pub fn distance(self, other: Place) -> f64 {
-        self.mm().distance(other.mm())
+        self.way(other).length()
     }
 }
 
