@@ -13,7 +13,7 @@ use proptest::prelude::*;
 const STEP_MM3: f64 = 2.5e-5;
 
 fn layer(index: u32, paths: &[Path]) -> LayerInput<'_> {
-    LayerInput { index, print_z: 0.2 + 0.2 * f64::from(index), height: 0.2, paths }
+    LayerInput { index, print_z: 0.2 + 0.2 * f64::from(index), height: 0.2, paths, crosses_outline: &[] }
 }
 
 fn square(role: Role, side: f64) -> Path {

@@ -51,7 +51,8 @@ pub struct LayerInput<'a> {
     /// Beads in printing order.
     pub paths: &'a [Path],
     /// For each path whether the way to it crosses an outline of the part; filament is pulled back
-    /// on such ways only, elsewhere what oozes stays inside.
+    /// on such ways only, elsewhere what oozes stays inside. A path without an entry counts as
+    /// reached across an outline.
     pub crosses_outline: &'a [bool],
 }
 

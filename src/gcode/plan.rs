@@ -43,7 +43,8 @@ pub struct LayerPlan {
 /// Plans one layer. Paths without length are left out.
 pub fn plan_layer(layer: &LayerInput<'_>, options: &GcodeOptions) -> LayerPlan {
     let mut planner = Planner::new(layer, options);
-    for (path, &crosses) in layer.paths.iter().zip(layer.crosses_outline) {
+    let told = layer.crosses_outline.iter().copied().chain(std::iter::repeat(true));
+    for (path, crosses) in layer.paths.iter().zip(told) {
         planner.path(path, crosses);
     }
     LayerPlan {
