@@ -6,8 +6,16 @@
 //! [Lv 2022]: N. Lv, Y. Li, Y. Qiao, "Generation Algorithm of a Novel Platform Attached Support
 //! Structure for FDM", 2022.
 
+mod attachment;
+mod brim;
+mod clip;
 pub mod error;
+mod figures;
+mod ground;
 pub mod options;
+mod raft;
+mod segments;
+mod skirt;
 pub mod teeth;
 
 pub use error::{AdhesionError, AdhesionWarning, WarningCode};
@@ -16,6 +24,9 @@ pub use options::{
 };
 pub use teeth::{TeethDrawing, Tooth};
 
+use ground::Ground;
+
+use crate::options::Checked;
 use crate::polygon::PolygonSet;
 use crate::polygon::measure::Bounds;
 use crate::region::Path;
@@ -33,6 +44,8 @@ pub struct FirstLayer<'a> {
     pub line_width: f64,
     /// `layers.first_height`, mm.
     pub height: f64,
+    /// `layers.height`, mm: the second and third layer of teeth.
+    pub next_height: f64,
 }
 
 /// What is laid around or below the part.
@@ -90,4 +103,60 @@ pub struct TeethFigures {
     pub bite_min_mm: f64,
     /// Largest depth of a tip in the part, mm; 0 without teeth.
     pub bite_max_mm: f64,
+}
+
+/// Lays what `options.kind` asks for around or below the first layer.
+///
+/// Nothing is laid without an outline. What cannot be laid as asked (a part at the bed's edge, a part
+/// smaller than a tooth) is told in [`Foundation::warnings`]; settings that contradict each other
+/// are an error.
+pub fn lay_foundation(first: &FirstLayer, options: &AdhesionOptions) -> Result<Foundation, AdhesionError> {
+    options.check("adhesion")?;
+    lay(first, &Ground::of(first), options.kind, options)
+}
+
+/// One kind beside the others.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Alternative {
+    /// What is laid.
+    pub kind: AdhesionKind,
+    /// What it comes to.
+    pub foundation: Foundation,
+}
+
+/// Skirt, brim, raft and teeth for the same first layer, in this order, whatever `options.kind` says.
+pub fn compare(first: &FirstLayer, options: &AdhesionOptions) -> Result<[Alternative; 4], AdhesionError> {
+    options.check("adhesion")?;
+    let ground = Ground::of(first);
+    let of = |kind| -> Result<Alternative, AdhesionError> {
+        Ok(Alternative { kind, foundation: lay(first, &ground, kind, options)? })
+    };
+    let [skirt, brim, raft, teeth] = AdhesionKind::ALL;
+    Ok([of(skirt)?, of(brim)?, of(raft)?, of(teeth)?])
+}
+
+fn lay(
+    first: &FirstLayer,
+    ground: &Ground,
+    kind: AdhesionKind,
+    options: &AdhesionOptions,
+) -> Result<Foundation, AdhesionError> {
+    let mut foundation = match kind {
+        AdhesionKind::None => Foundation::default(),
+        AdhesionKind::Skirt => skirt::skirt(first, ground, &options.skirt),
+        AdhesionKind::Brim => brim::brim(first, ground, &options.brim),
+        AdhesionKind::Raft => raft::raft(first, ground, &options.raft),
+        AdhesionKind::Teeth => teeth::teeth(first, ground, &options.teeth)?,
+    };
+    figures::measure(first, ground, &mut foundation);
+    foundation.warnings.extend(off_bed(first, ground));
+    Ok(foundation)
+}
+
+/// The first layer itself leaves the bed: it cannot be printed there, whatever holds it.
+fn off_bed(first: &FirstLayer, ground: &Ground) -> Option<AdhesionWarning> {
+    let points = ground.area.contours().iter().flat_map(|c| &c.points);
+    let at = points.copied().find(|&p| p.clamp(first.bed.min, first.bed.max) != p)?;
+    let message = "printer.bed_size: the first layer leaves the bed".to_owned();
+    Some(AdhesionWarning::new(WarningCode::OutlineOffBed, message, Some(at)))
 }
