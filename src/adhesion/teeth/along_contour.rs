@@ -24,6 +24,9 @@ const SHIFT_MM: f64 = 0.25;
 /// Parts reached all round get at least this many teeth, however small, if they fit.
 const FEWEST: u32 = 3;
 
+/// How often teeth are spread again without the windows in which one did not fit.
+const TRIES: u32 = 4;
+
 /// Cell of the rails' index, mm.
 const RAIL_CELL_MM: f64 = 2.0;
 
@@ -57,7 +60,7 @@ pub(super) fn place(site: &Site, rails: &PolygonSet) -> Placement {
     let mut summary = Summary::default();
     for owner in (0..site.is_hole.len() as u32).filter(|&o| site.options.holes || !site.is_hole[o as usize]) {
         let own: Vec<Window> = windows.iter().filter(|w| w.owner == owner).copied().collect();
-        let count = work.place_on(&own, reach.wanted(site, owner));
+        let count = work.place_on(own, reach.wanted(site, owner));
         summary.add(site, &reach, owner, count);
     }
     let teeth = work.placed.teeth;
@@ -149,16 +152,41 @@ struct Work<'a> {
 
 impl Work<'_> {
     /// Places up to `wanted` teeth in the windows of one contour; how many stand.
-    fn place_on(&mut self, windows: &[Window], wanted: u32) -> u32 {
+    ///
+    /// Where something is in the way of a planned tooth, its window is given up and the teeth are
+    /// spread again over the others, so that what is lost in one place is made up in another.
+    fn place_on(&mut self, mut windows: Vec<Window>, wanted: u32) -> u32 {
+        let before = self.placed.teeth.len();
+        for _ in 0..TRIES {
+            let failed = self.place_spread(&windows, wanted);
+            let count = (self.placed.teeth.len() - before) as u32;
+            if count >= wanted || failed.is_empty() {
+                break;
+            }
+            let kept: Vec<Window> =
+                (0..windows.len()).filter(|i| !failed.contains(i)).map(|i| windows[i]).collect();
+            if kept.is_empty() {
+                break;
+            }
+            windows = kept;
+            self.placed.truncate(before);
+        }
+        self.fill(&windows, wanted, (self.placed.teeth.len() - before) as u32)
+    }
+
+    /// Spreads teeth over the windows; those windows in which a planned tooth does not fit.
+    fn place_spread(&mut self, windows: &[Window], wanted: u32) -> Vec<usize> {
         let options = self.site.options;
         let low = options.base + 0.35 * (options.pitch - options.base);
         let range = PitchRange { low, high: 3.0 * options.pitch };
         let lengths: Vec<f64> = self.rails.iter().map(Rail::length).collect();
-        let mut count = 0;
+        let mut failed = Vec::new();
         for (index, s) in spread(windows, &lengths, wanted, range) {
-            count += u32::from(self.place_near(&windows[index], s, options.pitch / 2.0));
+            if !self.place_near(&windows[index], s, options.pitch / 2.0) {
+                failed.push(index);
+            }
         }
-        self.fill(windows, wanted, count)
+        failed
     }
 
     /// Puts a tooth at `s`, or as near to it as one fits.
@@ -215,6 +243,12 @@ impl Placed {
     fn cell_of(&self, tooth: &PlacedTooth) -> (i64, i64) {
         let at = (tooth.tooth.foot / self.cell).floor();
         (at.x as i64, at.y as i64)
+    }
+
+    /// Takes away all teeth but the first `count`.
+    fn truncate(&mut self, count: usize) {
+        self.teeth.truncate(count);
+        self.cells.values_mut().for_each(|indices| indices.retain(|&i| (i as usize) < count));
     }
 
     fn add(&mut self, tooth: PlacedTooth) {

@@ -39,13 +39,19 @@ pub(super) fn spread(
     windows.iter().zip(&counted).enumerate().flat_map(places).collect()
 }
 
-/// Teeth in each window when each stands as early as it can, `pitch` behind the one before.
+/// Teeth in each window when each stands as early as it can, `pitch` behind the one before. Windows
+/// behind a corner count by themselves, so that equal sides get equal teeth.
 fn counts(windows: &[Window], lengths: &[f64], pitch: f64) -> Vec<u32> {
     let mut found = Vec::with_capacity(windows.len());
-    let (mut rail, mut first, mut last) = (usize::MAX, 0.0, f64::NEG_INFINITY);
+    let (mut rail, mut last) = (usize::MAX, f64::NEG_INFINITY);
+    // Where the rail's last tooth must stand to keep its distance from the first, all round.
+    let mut limit = None;
     for window in windows {
         if window.rail != rail {
-            (rail, first, last) = (window.rail, f64::NAN, f64::NEG_INFINITY);
+            (rail, last, limit) = (window.rail, f64::NEG_INFINITY, None);
+        }
+        if window.behind_corner {
+            (last, limit) = (f64::NEG_INFINITY, Some(f64::INFINITY));
         }
         let length = lengths[window.rail];
         if window.ring {
@@ -53,17 +59,14 @@ fn counts(windows: &[Window], lengths: &[f64], pitch: f64) -> Vec<u32> {
             continue;
         }
         let start = window.from.max(last + pitch);
-        // The last tooth on the rail keeps its distance from the first, all round.
-        let end = if first.is_nan() { window.to } else { window.to.min(first + length - pitch) };
+        let end = window.to.min(limit.unwrap_or(f64::INFINITY));
         if start > end {
             found.push(0);
             continue;
         }
         let count = ((end - start) / pitch + 1e-9).floor();
-        if first.is_nan() {
-            first = start;
-        }
         last = start + count * pitch;
+        limit = limit.or(Some(start + length - pitch));
         found.push(count as u32 + 1);
     }
     found
@@ -88,7 +91,7 @@ mod tests {
     use super::*;
 
     fn window(from: f64, to: f64) -> Window {
-        Window { rail: 0, owner: 0, from, to, ring: false }
+        Window { rail: 0, owner: 0, from, to, ring: false, behind_corner: false }
     }
 
     const RANGE: PitchRange = PitchRange { low: 3.5, high: 15.0 };

@@ -20,6 +20,8 @@ pub(super) struct Window {
     pub(super) to: f64,
     /// Whether this is the whole rail.
     pub(super) ring: bool,
+    /// Whether a corner of the rail lies between the window before and this one.
+    pub(super) behind_corner: bool,
 }
 
 /// The windows of one rail, in order along it.
@@ -28,7 +30,14 @@ pub(super) fn windows_of(site: &Site, index: usize, rail: &Rail) -> Vec<Window> 
         sample_positions(rail).into_iter().map(|s| (s, owner_at(site, rail, s))).collect();
     let n = samples.len();
     let Some(first) = (0..n).find(|&i| samples[i].1 != samples[(i + n - 1) % n].1) else {
-        let ring = |owner| Window { rail: index, owner, from: 0.0, to: rail.length(), ring: true };
+        let ring = |owner| Window {
+            rail: index,
+            owner,
+            from: 0.0,
+            to: rail.length(),
+            ring: true,
+            behind_corner: false,
+        };
         return samples.first().and_then(|s| s.1).map(ring).into_iter().collect();
     };
     // From the first change once round, arc lengths going on beyond the start.
@@ -36,7 +45,7 @@ pub(super) fn windows_of(site: &Site, index: usize, rail: &Rail) -> Vec<Window> 
         let (s, owner) = samples[(first + k) % n];
         (if first + k >= n { s + rail.length() } else { s }, owner)
     };
-    let mut windows = Vec::new();
+    let mut windows: Vec<Window> = Vec::new();
     let mut k = 0;
     while k < n {
         let (from, owner) = unrolled(k);
@@ -52,11 +61,22 @@ pub(super) fn windows_of(site: &Site, index: usize, rail: &Rail) -> Vec<Window> 
                 from: limit(from, before),
                 to: limit(unrolled(end).0, after),
                 ring: false,
+                behind_corner: false,
             });
         }
         k = end + 1;
     }
+    mark_corners(rail, &mut windows);
     windows
+}
+
+fn mark_corners(rail: &Rail, windows: &mut [Window]) {
+    let Some(last) = windows.last() else { return };
+    let mut before = last.to - rail.length();
+    for window in windows {
+        window.behind_corner = rail.has_corner_between(before, window.from);
+        before = window.to;
+    }
 }
 
 /// What to take from the last sample's arc length to come before the first one's.
