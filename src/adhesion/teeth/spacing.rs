@@ -22,21 +22,30 @@ pub(super) fn spread(
     wanted: u32,
     range: PitchRange,
 ) -> Vec<(usize, f64)> {
-    let total = |pitch: f64| counts(windows, lengths, pitch).iter().sum::<u32>();
-    let (mut enough, mut few) = (range.low, range.high);
-    if total(few) >= wanted {
-        enough = few;
-    } else {
-        for _ in 0..HALVINGS {
-            let middle = (enough + few) / 2.0;
-            if total(middle) >= wanted { enough = middle } else { few = middle }
-        }
+    let mut windows = windows.to_vec();
+    let fewest = counts(&windows, lengths, range.high).iter().sum::<u32>();
+    if fewest > wanted {
+        // Many short sides, as of a gear: one tooth on each is too many, so they share.
+        windows.iter_mut().for_each(|w| w.behind_corner = false);
     }
-    let counted = counts(windows, lengths, enough);
+    let counted = counts(&windows, lengths, largest_pitch(&windows, lengths, wanted, range));
     let places = |(index, (window, &count)): (usize, (&Window, &u32))| {
         positions(window, count, range.low).into_iter().map(move |s| (index, s)).collect::<Vec<_>>()
     };
     windows.iter().zip(&counted).enumerate().flat_map(places).collect()
+}
+
+/// The largest pitch that places so many teeth, or the smallest of the range.
+fn largest_pitch(windows: &[Window], lengths: &[f64], wanted: u32, range: PitchRange) -> f64 {
+    let is_enough = |pitch: f64| counts(windows, lengths, pitch).iter().sum::<u32>() >= wanted;
+    if is_enough(range.high) {
+        return range.high;
+    }
+    let halved = |(enough, few): (f64, f64), _| {
+        let middle = (enough + few) / 2.0;
+        if is_enough(middle) { (middle, few) } else { (enough, middle) }
+    };
+    (0..HALVINGS).fold((range.low, range.high), halved).0
 }
 
 /// Teeth in each window when each stands as early as it can, `pitch` behind the one before. Windows
