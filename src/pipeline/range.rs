@@ -183,6 +183,7 @@ fn lay_paths(
     let started = clock();
     let (settings, spec) = (&plan.settings, &plan.specs[place]);
     let is_first = spec.index == 0;
+    // On a raft layer 0 holds nothing of the part, and its area is empty.
     let outline = if is_first { draw_in(area, &settings.first_layer) } else { area.clone() };
     let width = if is_first { settings.first_layer.line_width } else { settings.walls.width };
     let bead = Bead { width, height: spec.height };

@@ -50,7 +50,7 @@ pub(super) fn job_error(cause: JobError) -> Thrown {
     let name = match cause {
         JobError::Fit(_) => "FitError",
         JobError::Empty => "ModelError",
-        JobError::Gcode(_) => "SettingsError",
+        JobError::Gcode(_) | JobError::Adhesion(_) => "SettingsError",
         JobError::LayerMissing { .. } => "InternalError",
     };
     thrown(name, cause)
