@@ -4,15 +4,15 @@
 //! between walls. The centre line is the medial axis, the width twice the distance to the border.
 //! The steps:
 //!
-//! 1. [`border`]: the outline with points every [`STEP_MM`] at least, and its constrained Delaunay
+//! 1. `border`: the outline with points every `STEP_MM` at least, and its constrained Delaunay
 //!    triangulation (crate `spade`).
-//! 2. [`axis`]: the chordal axis [Prasad 1997, "Morphological analysis of shapes"]: triangles with
+//! 2. `axis`: the chordal axis [Prasad 1997, "Morphological analysis of shapes"]: triangles with
 //!    two inner edges are links of a branch, with three junctions, with one ends. The middles of the
 //!    inner edges are moved onto the true medial axis (equal distance to both sides), so that the
 //!    triangulation gives only the order and not the accuracy.
-//! 3. [`chains`]: spurs into corners go, and at each junction the straightest and longest two
+//! 3. `chains`: spurs into corners go, and at each junction the straightest and longest two
 //!    branches become one line.
-//! 4. [`bead`]: ends carried to the border, widths clamped, few points.
+//! 4. `bead`: ends carried to the border, widths clamped, few points.
 //!
 //! Variable-width beads along the medial axis as in [Kuipers, Doubrovski, Wu, Wang 2020, "A framework
 //! for adaptive width control of dense contour-parallel toolpaths"], with one bead instead of many:
