@@ -233,6 +233,25 @@ fn contours_that_touch_give_a_result() {
 }
 
 #[test]
+fn a_needle_of_one_grid_step_is_no_fallback() {
+    // Found by random bars: points added to the two sides of the needle and rounded made them cross.
+    let found = [
+        (11.6164, 6.2689),
+        (13.8638, 2.4148),
+        (13.9766, 1.1728),
+        (14.1738, 1.1907),
+        (14.0993, 2.0108),
+        (14.816, 0.7819),
+        (14.8161, 0.782),
+        (14.0993, 2.0111),
+        (13.8899, 4.318),
+        (13.6926, 4.3001),
+        (13.8637, 2.415),
+    ];
+    assert_eq!(fill(&area(&found)).paths.len(), 1);
+}
+
+#[test]
 fn role_and_options_reach_the_paths() {
     let options = ThinFill { role: Role::OuterWall, max_width: 0.5, min_width: 0.4, ..ThinFill::default() };
     let strip = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(5.0, 0.3));

@@ -4,7 +4,7 @@ use spade::handles::DirectedEdgeHandle;
 use spade::{CdtEdge, ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
 
 use crate::polygon::simplify::closest_on_segment;
-use crate::polygon::{Contour, DVec2, Polygon, by_x_then_y, snap};
+use crate::polygon::{Contour, DVec2, Polygon, by_x_then_y};
 
 /// No triangle, no vertex.
 pub(super) const NONE: u32 = u32::MAX;
@@ -183,11 +183,13 @@ fn triangulated(points: &[DVec2], edges: &[[u32; 2]]) -> Option<Spade> {
 }
 
 /// The contour with each edge cut into equal pieces of at most `step` mm.
+///
+/// The new points stay off the grid: moved by half a step of it, the sides of a needle would cross.
 fn densified(contour: &Contour, step: f64) -> Vec<DVec2> {
     let mut points = Vec::with_capacity(contour.points.len());
     for (a, b) in contour.edges() {
         let pieces = (a.distance(b) / step).ceil().max(1.0);
-        points.extend((0..pieces as usize).map(|i| snap(a + (b - a) * (i as f64 / pieces))));
+        points.extend((0..pieces as usize).map(|i| a + (b - a) * (i as f64 / pieces)));
     }
     points.dedup();
     points
