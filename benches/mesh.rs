@@ -2,6 +2,13 @@
 //!
 //! The aim (issue 2): parsed in no more time than three.js' STLLoader takes, about 100 ms in a
 //! browser, and parsed and welded in at most twice that.
+//!
+//! Measured 2026-11-22 on a shared Xeon (2 cores, busy), CPU ms, best of several: native parse and
+//! weld 56 (the same triangles shuffled 100), topology 30, repair of a sound mesh 136, text (203 MB)
+//! 810. As wasm in Node 20.20: parse and weld 90 to 105, repair and inspect 114 to 130, beside 58 to
+//! 93 for STLLoader of three 0.187, which does not weld. Before the slots of 16 triangles were asked
+//! for together: 80 to 98 native, 154 to 208 in wasm; a small cache of recent vertices instead gave
+//! 125 to 175, and nothing on shuffled triangles.
 
 #[path = "../tests/common/mod.rs"]
 mod common;

@@ -91,12 +91,13 @@ fn measure(mesh: &Mesh, topology: &Topology, bodies: &Bodies, turned: &[bool]) -
         let corners = mesh.corners(t);
         let [a, b, c] = corners.map(|v| v.as_dvec3() - origins[body as usize]);
         let m = &mut measures[body as usize];
-        let volume = a.dot(b.cross(c)) / 6.0;
-        m.volume += if turned[t] { -volume } else { volume };
+        let six_volumes = a.dot(b.cross(c));
+        m.volume += if turned[t] { -six_volumes } else { six_volumes };
         m.min = corners.into_iter().fold(m.min, Vec3::min);
         m.max = corners.into_iter().fold(m.max, Vec3::max);
         m.triangles += 1;
     }
+    measures.iter_mut().for_each(|m| m.volume /= 6.0);
     measures
 }
 
@@ -122,34 +123,53 @@ fn border_centres(mesh: &Mesh, topology: &Topology, bodies: &Bodies) -> Vec<DVec
 fn decide(measures: &[Measure], winding: &[Vec<Sample>]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..measures.len()).collect();
     order.sort_by(|&a, &b| measures[b].box_volume().total_cmp(&measures[a].box_volume()).then(a.cmp(&b)));
-    let mut inside_out = vec![false; measures.len()];
-    let mut decided = vec![false; measures.len()];
-    for &body in &order {
+    let mut inside_out = vec![None; measures.len()];
+    for body in order {
         let own = &measures[body];
-        let holds = |other: u32| decided[other as usize] && measures[other as usize].may_hold(own);
-        let is_inside = !winding[body].is_empty()
-            && winding[body].iter().all(|sample| {
-                let around = sample.iter().filter(|(other, _)| holds(*other));
-                around
-                    .map(|(other, w)| if inside_out[*other as usize] { -w.number() } else { w.number() })
-                    .sum::<i32>()
-                    >= 1
-            });
-        let innermost = winding[body]
-            .iter()
-            .flatten()
-            .filter(|(other, w)| holds(*other) && w.number() != 0)
-            .map(|w| w.0 as usize);
-        let innermost =
-            innermost.min_by(|&a, &b| measures[a].box_volume().total_cmp(&measures[b].box_volume()));
-        inside_out[body] = if own.volume < -own.flat() {
+        let holders = holders(own, measures, &inside_out, &winding[body]);
+        let is_inside = !holders.is_empty() && holders.iter().all(|around| around.winding() >= 1);
+        inside_out[body] = Some(if own.volume < -own.flat() {
             !is_inside
         } else {
-            own.volume > own.flat() && is_inside && innermost.is_some_and(|other| inside_out[other])
-        };
-        decided[body] = true;
+            own.volume > own.flat()
+                && is_inside
+                && holders.iter().any(|around| around.innermost_was_turned(measures))
+        });
     }
-    inside_out
+    inside_out.into_iter().map(|turned| turned == Some(true)).collect()
+}
+
+/// The bodies decided already that may hold a sample of a body: number, winding number as the file
+/// has it, whether it was turned.
+struct Holders(Vec<(usize, i32, bool)>);
+
+/// For each sample of the body `own` what is around it.
+fn holders(
+    own: &Measure,
+    measures: &[Measure],
+    inside_out: &[Option<bool>],
+    samples: &[Sample],
+) -> Vec<Holders> {
+    let holder = |&(other, crossings): &(u32, Crossings)| {
+        let other = other as usize;
+        let turned = inside_out[other].filter(|_| measures[other].may_hold(own))?;
+        Some((other, crossings.number(), turned))
+    };
+    samples.iter().map(|around| Holders(around.iter().filter_map(holder).collect())).collect()
+}
+
+impl Holders {
+    /// How often all of them, turned as decided, wind around the sample.
+    fn winding(&self) -> i32 {
+        self.0.iter().map(|&(_, number, turned)| if turned { -number } else { number }).sum()
+    }
+
+    /// Whether the smallest body around the sample was turned.
+    fn innermost_was_turned(&self, measures: &[Measure]) -> bool {
+        let around = self.0.iter().filter(|(_, number, _)| *number != 0);
+        let size = |body: usize| measures[body].box_volume();
+        around.min_by(|a, b| size(a.0).total_cmp(&size(b.0))).is_some_and(|&(_, _, turned)| turned)
+    }
 }
 
 /// The bodies around one point, with what a vertical line through it says.
@@ -178,12 +198,11 @@ fn winding(mesh: &Mesh, bodies: &Bodies, turned: &[bool], measures: &[Measure]) 
     let mut points = sample_points(mesh, bodies, measures);
     points.sort_by(|a, b| a.at.x.total_cmp(&b.at.x).then(a.body.cmp(&b.body)));
     for (t, &body) in bodies.of.iter().enumerate() {
-        let corners = mesh.corners(t);
-        let low = corners.iter().fold(f32::INFINITY, |m, c| m.min(c.x));
-        let high = corners.iter().fold(f32::NEG_INFINITY, |m, c| m.max(c.x));
-        let first = points.partition_point(|p| p.at.x < f64::from(low));
-        let near = points[first..].iter_mut().take_while(|p| p.at.x <= f64::from(high));
-        for point in near.filter(|p| p.body != body) {
+        let [a, b, c] = mesh.corners(t).map(Vec3::as_dvec3);
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        let first = points.partition_point(|p| p.at.x < low.x);
+        let near = points[first..].iter_mut().take_while(|p| p.at.x <= high.x);
+        for point in near.filter(|p| low.y <= p.at.y && p.at.y <= high.y && p.body != body) {
             point.cross(mesh, t, body, turned[t]);
         }
     }

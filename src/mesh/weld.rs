@@ -13,6 +13,12 @@ pub(super) const REACH_MM: f32 = 1e6;
 /// last two numbers mean "none" and "several".
 pub(super) const MAX_TRIANGLES: u64 = (u32::MAX as u64 - 2) / 3;
 
+/// The corners of one triangle, mm.
+pub(super) type Corners = [[f32; 3]; 3];
+
+/// Triangles taken at a time: enough to keep the memory busy, few enough to stay in registers' reach.
+pub(super) const BLOCK: usize = 16;
+
 /// Builds an indexed mesh from corners that come one triangle after the other.
 pub(super) struct Welder {
     mesh: Mesh,
@@ -42,24 +48,41 @@ impl Welder {
     }
 
     /// Adds a triangle; an error names it by its number, from 1.
+    pub(super) fn add(&mut self, triangle: Corners) -> Result<(), StlError> {
+        self.add_block(&[triangle])
+    }
+
+    /// Adds up to [`BLOCK`] triangles. All slots of the table are asked for before the first answer
+    /// is needed, so that the waits for memory overlap.
     #[inline]
-    pub(super) fn add(&mut self, corners: [[f32; 3]; 3]) -> Result<(), StlError> {
-        self.read += 1;
-        let reach = corners.as_flattened().iter().all(|x| x.abs() <= REACH_MM);
-        if !reach || self.read > self.max_triangles {
-            return Err(self.refusal(&corners));
+    pub(super) fn add_block(&mut self, triangles: &[Corners]) -> Result<(), StlError> {
+        let mut hints = [[FREE; 3]; BLOCK];
+        for (hint, corners) in hints.iter_mut().zip(triangles) {
+            for (hint, &corner) in hint.iter_mut().zip(corners) {
+                *hint = self.table.slots[self.table.slot_of(without_sign_of_zero(corner))];
+            }
         }
-        let triangle = corners.map(|c| self.table.index_of(&mut self.mesh.vertices, c));
-        if uses_a_vertex_twice(triangle) {
-            self.degenerate += 1;
-        } else {
-            self.mesh.triangles.push(triangle);
+        for (hint, corners) in hints.iter().zip(triangles) {
+            self.read += 1;
+            let in_reach = corners.as_flattened().iter().all(|x| x.abs() <= REACH_MM);
+            if !in_reach || self.read > self.max_triangles {
+                return Err(self.refusal(corners));
+            }
+            let index = |k: usize| (hint[k], without_sign_of_zero(corners[k]));
+            let [a, b, c] = [index(0), index(1), index(2)];
+            let mut index_of = |(hint, vertex)| self.table.index_of(&mut self.mesh.vertices, vertex, hint);
+            let triangle = [index_of(a), index_of(b), index_of(c)];
+            if uses_a_vertex_twice(triangle) {
+                self.degenerate += 1;
+            } else {
+                self.mesh.triangles.push(triangle);
+            }
         }
         Ok(())
     }
 
     #[cold]
-    fn refusal(&self, corners: &[[f32; 3]; 3]) -> StlError {
+    fn refusal(&self, corners: &Corners) -> StlError {
         let numbers = corners.as_flattened();
         if numbers.iter().any(|x| !x.is_finite()) {
             return StlError::NonFinite { triangle: self.read };
@@ -163,12 +186,21 @@ impl VertexTable {
         VertexTable { slots: vec![FREE; slots], shift: 64 - slots.trailing_zeros() }
     }
 
-    /// The number of the vertex at this position, a new one if there was none. -0.0 equals 0.0.
+    /// Where the search for a vertex starts.
     #[inline]
-    fn index_of(&mut self, vertices: &mut Vec<Vec3>, position: [f32; 3]) -> u32 {
-        let vertex = Vec3::from_array(position.map(|x| x + 0.0)); // -0.0 + 0.0 is 0.0
+    fn slot_of(&self, vertex: Vec3) -> usize {
+        (hash(vertex) >> self.shift) as usize
+    }
+
+    /// The number of the vertex at this position, a new one if there was none. `hint` is a number
+    /// that may be the right one, or [`FREE`].
+    #[inline]
+    fn index_of(&mut self, vertices: &mut Vec<Vec3>, vertex: Vec3, hint: u32) -> u32 {
+        if vertices.get(hint as usize) == Some(&vertex) {
+            return hint;
+        }
         let mask = self.slots.len() - 1;
-        let mut slot = (hash(vertex) >> self.shift) as usize;
+        let mut slot = self.slot_of(vertex);
         loop {
             let found = self.slots[slot];
             if found == FREE {
@@ -198,13 +230,19 @@ impl VertexTable {
         *self = VertexTable::with_room_for(doubled);
         let mask = self.slots.len() - 1;
         for (index, &vertex) in vertices.iter().enumerate() {
-            let mut slot = (hash(vertex) >> self.shift) as usize;
+            let mut slot = self.slot_of(vertex);
             while self.slots[slot] != FREE {
                 slot = (slot + 1) & mask;
             }
             self.slots[slot] = index as u32;
         }
     }
+}
+
+/// The position with 0.0 for -0.0, so that equal positions have equal bits.
+#[inline]
+fn without_sign_of_zero([x, y, z]: [f32; 3]) -> Vec3 {
+    Vec3::new(x + 0.0, y + 0.0, z + 0.0)
 }
 
 /// Mixes the bits of the three coordinates; the upper bits are the good ones (multiplicative

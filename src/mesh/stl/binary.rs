@@ -1,6 +1,7 @@
 //! The binary form: a header, a count, records of 50 bytes.
 
 use super::{Format, HEADER_BYTES, Parsed, StlError, Welder};
+use crate::mesh::weld::{BLOCK, Corners};
 
 /// Bytes of one triangle: normal, three corners, two bytes of attributes.
 pub(super) const RECORD_BYTES: usize = 50;
@@ -61,8 +62,12 @@ impl BinaryReader {
         let wanted = u64::from(self.count) - self.welder.read();
         let (records, rest) = bytes.as_chunks::<RECORD_BYTES>();
         let whole = records.len().min(usize::try_from(wanted).unwrap_or(usize::MAX));
-        for record in &records[..whole] {
-            self.welder.add(corners(record))?;
+        let mut block = [[[0.0; 3]; 3]; BLOCK];
+        for records in records[..whole].chunks(BLOCK) {
+            for (place, record) in block.iter_mut().zip(records) {
+                *place = corners(record);
+            }
+            self.welder.add_block(&block[..records.len()])?;
         }
         if self.welder.read() == u64::from(self.count) {
             self.trailing += (bytes.len() - whole * RECORD_BYTES) as u64;
@@ -98,7 +103,7 @@ fn check_size(count: u32, bytes: u64) -> Result<(), StlError> {
 
 /// The three corners of a record; normal and attributes are skipped.
 #[inline]
-fn corners(record: &[u8; RECORD_BYTES]) -> [[f32; 3]; 3] {
+fn corners(record: &[u8; RECORD_BYTES]) -> Corners {
     let number = |at: usize| f32::from_le_bytes([record[at], record[at + 1], record[at + 2], record[at + 3]]);
     let corner = |at: usize| [number(at), number(at + 4), number(at + 8)];
     [corner(12), corner(24), corner(36)]
