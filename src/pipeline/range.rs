@@ -146,16 +146,20 @@ fn gap_warnings(plan: &RangePlan, sections: &[Section]) -> Vec<Warning> {
     printed.filter_map(warn).collect()
 }
 
+/// Skins need not follow the outline closer than this, mm: a tenth of a bead.
+const SKIN_RESOLUTION: f64 = 0.04;
+
 /// Bare tops and bottoms of every layer that has its neighbours at hand.
 fn expose(plan: &RangePlan, areas: &[PolygonSet]) -> Vec<Exposure> {
     let SkinNeighbours { above, below } = SkinNeighbours::of(&plan.settings);
     let walls = &plan.settings.walls;
-    let thickness = walls.width * f64::from(walls.count);
-    let hair = hair_of_walls(thickness, above.max(below) as u32).min(walls.width / 2.0);
+    let hair = hair_of_walls(walls.width * f64::from(walls.count), above.max(below) as u32);
+    let hair = hair.min(walls.width / 2.0);
+    let rough: Vec<PolygonSet> = areas.iter().map(|a| a.roughened(SKIN_RESOLUTION.min(hair / 2.0))).collect();
     let low = plan.first.saturating_sub(below.saturating_sub(1));
     let high = (plan.last + above.saturating_sub(1)).min(areas.len());
     let expose_at = |i: usize| match (low..high).contains(&i) {
-        true => exposure(i.checked_sub(1).map(|b| &areas[b]), &areas[i], areas.get(i + 1), hair),
+        true => exposure(i.checked_sub(1).map(|b| &rough[b]), &rough[i], rough.get(i + 1), hair),
         false => Exposure::default(),
     };
     (0..areas.len()).map(expose_at).collect()
