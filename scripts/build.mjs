@@ -57,7 +57,15 @@ function wasm(bindgen) {
     await run('cargo', ['build', '--locked', '--release', '--target', wasmTarget, '--lib']);
     const raw = path.join(targetFolder(), wasmTarget, 'release', 'foothold.wasm');
     rmSync(engine, { recursive: true, force: true });
-    await run(path.join(bindgen, 'wasm-bindgen'), [raw, '--target', 'web', '--out-dir', engine, '--out-name', 'foothold']);
+    await run(path.join(bindgen, 'wasm-bindgen'), [
+      raw,
+      '--target',
+      'web',
+      '--out-dir',
+      engine,
+      '--out-name',
+      'foothold',
+    ]);
     await optimise(path.join(engine, 'foothold_bg.wasm'));
   });
 }
@@ -72,7 +80,9 @@ async function optimise(file) {
   await runPackage('binaryen/bin/wasm-opt', ['-O3', ...features.map((it) => `--enable-${it}`), file, '-o', file]);
   const bytes = readFileSync(file);
   const kib = (n) => `${(n / 1024).toFixed(0)} KiB`;
-  console.log(`build: engine ${kib(before)} -> ${kib(bytes.length)}, gzip'd ${kib(gzipSync(bytes, { level: 9 }).length)}`);
+  console.log(
+    `build: engine ${kib(before)} -> ${kib(bytes.length)}, gzip'd ${kib(gzipSync(bytes, { level: 9 }).length)}`,
+  );
 }
 
 function sample() {

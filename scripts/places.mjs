@@ -9,8 +9,7 @@ export const at = (...parts) => path.join(root, ...parts);
 
 /** Tools built from source are kept here, outside the checkout. */
 export const cache =
-  process.env.FOOTHOLD_CACHE ??
-  path.join(process.env.XDG_CACHE_HOME ?? path.join(homedir(), '.cache'), 'foothold');
+  process.env.FOOTHOLD_CACHE ?? path.join(process.env.XDG_CACHE_HOME ?? path.join(homedir(), '.cache'), 'foothold');
 
 export const wasmTarget = 'wasm32-unknown-unknown';
 /** The engine as the page and Node load it: JavaScript glue, types and the optimised wasm. */

@@ -31,10 +31,12 @@ function sides() {
     [0, 5, 8],
     [8, 5, 6, 7],
   ];
-  return pieces.flatMap((piece) => fan(piece.map((k) => outline[k]))).flatMap(([a, b, c]) => [
-    [on(a, 0), on(b, 0), on(c, 0)],
-    [on(a, width), on(c, width), on(b, width)],
-  ]);
+  return pieces
+    .flatMap((piece) => fan(piece.map((k) => outline[k])))
+    .flatMap(([a, b, c]) => [
+      [on(a, 0), on(b, 0), on(c, 0)],
+      [on(a, width), on(c, width), on(b, width)],
+    ]);
 }
 
 const on = ([x, z], y) => [x, y, z];

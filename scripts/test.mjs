@@ -30,8 +30,15 @@ const groups = {
   ],
   rust: [['cargo test', () => run('cargo', ['test', '--locked', '--features', 'schema'], { env })]],
   web: [['wasm in Node', () => wasmTests()]],
-  node: [['build', build], ['vitest', () => runPackage('vitest/vitest.mjs', ['run'], { env })]],
-  e2e: [['build', build], ['browser', browser], ['playwright', () => runPackage('@playwright/test/cli.js', ['test'], { env })]],
+  node: [
+    ['build', build],
+    ['vitest', () => runPackage('vitest/vitest.mjs', ['run'], { env })],
+  ],
+  e2e: [
+    ['build', build],
+    ['browser', browser],
+    ['playwright', () => runPackage('@playwright/test/cli.js', ['test'], { env })],
+  ],
 };
 
 const clippy = (...what) => run('cargo', ['clippy', '--quiet', '--locked', ...what, '--', '-D', 'warnings']);
