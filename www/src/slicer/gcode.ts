@@ -22,3 +22,9 @@ export function partsOf({ layers, joined }: Gcode): Uint8Array<ArrayBuffer>[] {
 export function sizeOf(gcode: Gcode): number {
   return partsOf(gcode).reduce((total, part) => total + part.length, 0);
 }
+
+/** A layer's height above the bed, mm, as its text says it near its beginning; empty when it does not. */
+export function heightOf(layer: Uint8Array): string {
+  const start = new TextDecoder().decode(layer.subarray(0, 256));
+  return /^;Z:([\d.]+)/m.exec(start)?.[1] ?? '';
+}

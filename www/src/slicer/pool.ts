@@ -1,7 +1,7 @@
 // Runs a job over several lanes; used by the page and by the command line. The lead lane holds the models and
 // the job; helper lanes slice the ranges of layers that the lead prepares for them. What comes out does not
 // depend on how many lanes there are or on which of them sliced what.
-import type { ModelSource, PictureView, Range, SlicedRange } from '../messages.ts';
+import type { Bounds, CameraNumbers, ModelSource, PictureView, Range, SlicedRange, Theme } from '../messages.ts';
 import { EngineError } from './errors.ts';
 import type { Gcode } from './gcode.ts';
 import type { HelperLane, LeadLane } from './lane.ts';
@@ -48,6 +48,7 @@ export class Pool {
   #lead: LeadLane | undefined;
   #loaded: Promise<Opened> | undefined;
   readonly #helpers = new Set<HelperLane>();
+  #pictured: LeadLane | undefined;
   #generation = 0;
 
   /** `workers` engines in all, the lead included. */
@@ -100,12 +101,20 @@ export class Pool {
     return svg;
   }
 
-  /** Makes the first model's picture current in the lead, which then paints it on request. */
-  async picture(view: PictureView): Promise<LeadLane> {
-    await this.ready();
+  /** Makes a picture of the first model, to be painted; resolves to what it covers. */
+  async picture(view: PictureView): Promise<Bounds> {
     const lead = this.#someLead();
-    await this.#guard(lead.call({ kind: 'picture', view }));
-    return lead;
+    await this.ready();
+    const { bounds } = await this.#guard(lead.call({ kind: 'picture', view }));
+    this.#pictured = lead;
+    return bounds;
+  }
+
+  /** Paints the last picture; undefined when its lead has ended since: ask for the picture again. */
+  async paint(camera: CameraNumbers, theme: Theme): Promise<ImageBitmap | undefined> {
+    const lead = this.#pictured;
+    if (lead === undefined || lead !== this.#lead) return undefined;
+    return (await this.#guard(lead.call({ kind: 'paint', camera, theme }))).bitmap;
   }
 
   /** Ends all lanes. */

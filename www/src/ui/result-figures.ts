@@ -1,0 +1,98 @@
+// What the print takes: time, filament, cost, and which colour stands for what.
+import { html, nothing, type TemplateResult } from 'lit';
+import type { Report } from '../generated/report.ts';
+import { en } from '../i18n/en.ts';
+import type { LegendEntry } from '../messages.ts';
+import { words } from '../settings/fields.ts';
+import type { Remark } from '../state.ts';
+import { Part } from './part.ts';
+
+/** Sends `layer-change` when a remark's layer is chosen. */
+export class ResultFigures extends Part {
+  static override properties = {
+    report: { attribute: false },
+    costPerKg: { type: Number },
+    legend: { attribute: false },
+  };
+  declare report: Report | undefined;
+  declare costPerKg: number;
+  declare legend: readonly LegendEntry[];
+
+  constructor() {
+    super();
+    this.report = undefined;
+    this.costPerKg = 0;
+    this.legend = [];
+  }
+
+  protected override render(): TemplateResult | typeof nothing {
+    const { report } = this;
+    if (report === undefined) return nothing;
+    return html`
+      <section class="card" aria-labelledby="figures-heading">
+        <h2 id="figures-heading">${en.figures.heading}</h2>
+        ${this.#figures(report)} ${this.#legend(report)} ${this.#remarks(report.warnings)}
+      </section>
+    `;
+  }
+
+  #figures(report: Report): TemplateResult {
+    const { filament, time_s, layers } = report;
+    const figures = [
+      [en.figures.time, en.figures.duration(time_s)],
+      [en.figures.filament, en.figures.metres(filament.length_mm)],
+      [en.figures.mass, en.figures.grams(filament.mass_g)],
+      [en.figures.cost, en.figures.money((filament.mass_g / 1000) * this.costPerKg)],
+      [en.figures.layers, String(layers)],
+    ];
+    return html`<dl class="figures">
+      ${figures.map(([name, value]) => html`<div><dt>${name}</dt><dd>${value}</dd></div>`)}
+    </dl>`;
+  }
+
+  #legend(report: Report): TemplateResult {
+    const shown = new Map(this.legend.map((entry) => [entry.role, entry]));
+    const rows = Object.entries(report.by_role).filter(([, it]) => it.length_mm > 0);
+    return html`<table class="legend">
+      <caption>${en.figures.legend}</caption>
+      <thead>
+        <tr>
+          <th scope="col">${en.figures.role}</th>
+          <th scope="col">${en.figures.thisLayer}</th>
+          <th scope="col">${en.figures.length}</th>
+          <th scope="col">${en.figures.share}</th>
+        </tr>
+      </thead>
+      <tbody>
+        ${rows.map(([role, { length_mm, time_s }]) => legendRow(role, shown.get(role), length_mm, time_s))}
+      </tbody>
+    </table>`;
+  }
+
+  #remarks(remarks: readonly Remark[]): TemplateResult | typeof nothing {
+    if (remarks.length === 0) return nothing;
+    return html`<h3>${en.figures.warnings}</h3>
+      <ul class="remarks">
+        ${remarks.map((remark) => html`<li>${remark.message} ${this.#place(remark)}</li>`)}
+      </ul>`;
+  }
+
+  #place({ layer }: Remark): TemplateResult | typeof nothing {
+    if (layer === undefined || layer === null) return nothing;
+    return html`<button type="button" class="link" @click=${() => this.tell('layer-change', layer)}>
+      ${en.figures.showLayer(layer + 1)}
+    </button>`;
+  }
+}
+
+function legendRow(role: string, entry: LegendEntry | undefined, length: number, time: number): TemplateResult {
+  const swatch = entry === undefined ? '' : `background:${entry.color}`;
+  return html`<tr>
+    <th scope="row"><i class="swatch" style=${swatch} aria-hidden="true"></i>${entry?.label ?? words(role)}</th>
+    <td>${entry === undefined ? '' : en.figures.metres(entry.length_mm)}</td>
+    <td>${en.figures.metres(length)}</td>
+    <td>${en.figures.duration(time)}</td>
+  </tr>`;
+}
+
+customElements.define('result-figures', ResultFigures);
