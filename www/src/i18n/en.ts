@@ -56,6 +56,7 @@ export const en = {
   },
   figures: {
     heading: 'Result',
+    empty: 'Time, filament and cost stand here once the model is sliced.',
     time: 'Time',
     filament: 'Filament',
     mass: 'Mass',

@@ -53,7 +53,7 @@ export class FootholdApp extends Part {
         <div class="column prepare">
           ${typeof this.state.engine === 'string' ? nothing : problemBox(this.state.engine)}
           <drop-zone .model=${this.state.model} @open-file=${this.#open}></drop-zone>
-          ${this.#job()} ${this.#settings()}
+          ${this.#settings()} ${this.#job()}
         </div>
         <section class="view" aria-label=${en.view.heading}>${this.#tabs()} ${this.#picture()}</section>
         <div class="column results">${this.#figures()}</div>

@@ -25,9 +25,9 @@ export class ResultFigures extends Part {
     this.legend = [];
   }
 
-  protected override render(): TemplateResult | typeof nothing {
+  protected override render(): TemplateResult {
     const { report } = this;
-    if (report === undefined) return nothing;
+    if (report === undefined) return this.#empty();
     return html`
       <section class="card" aria-labelledby="figures-heading">
         <h2 id="figures-heading">${en.figures.heading}</h2>
@@ -36,14 +36,21 @@ export class ResultFigures extends Part {
     `;
   }
 
+  #empty(): TemplateResult {
+    return html`<section class="card" aria-labelledby="figures-heading">
+      <h2 id="figures-heading">${en.figures.heading}</h2>
+      <p class="hint">${en.figures.empty}</p>
+    </section>`;
+  }
+
   #figures(report: Report): TemplateResult {
     const { filament, time_s, layers } = report;
     const figures = [
       [en.figures.time, en.figures.duration(time_s)],
+      [en.figures.layers, String(layers)],
       [en.figures.filament, en.figures.metres(filament.length_mm)],
       [en.figures.mass, en.figures.grams(filament.mass_g)],
       [en.figures.cost, en.figures.money((filament.mass_g / 1000) * this.costPerKg)],
-      [en.figures.layers, String(layers)],
     ];
     return html`<dl class="figures">
       ${figures.map(([name, value]) => html`<div><dt>${name}</dt><dd>${value}</dd></div>`)}

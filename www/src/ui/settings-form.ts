@@ -2,7 +2,7 @@
 import { html, nothing, type TemplateResult } from 'lit';
 import { en } from '../i18n/en.ts';
 import { type Changes, fault, parse } from '../settings/changes.ts';
-import { type Field, type Group, groupsOf, type Schema, type Value } from '../settings/fields.ts';
+import { type Field, type Group, groupsOf, type Schema, type Value, words } from '../settings/fields.ts';
 import { Part } from './part.ts';
 
 /** Shown without opening anything; those that the schema does not have are left out. */
@@ -90,7 +90,7 @@ export class SettingsForm extends Part {
         return html`<select id=${id} .value=${String(value)} @change=${change}>
           ${field.choices.map(
             (it) =>
-              html`<option value=${it.value} title=${it.help} ?selected=${it.value === value}>${it.value}</option>`,
+              html`<option value=${it.value} title=${it.help} ?selected=${it.value === value}>${words(it.value)}</option>`,
           )}
         </select>`;
       case 'switch':
