@@ -50,7 +50,13 @@ impl PolygonSet {
 
     /// The union of many areas in one pass.
     pub fn union_all<'a>(sets: impl IntoIterator<Item = &'a PolygonSet>) -> PolygonSet {
-        let paths: Paths64 = sets.into_iter().flat_map(|s| to_paths(s.contours())).collect();
+        let mut sets = sets.into_iter().filter(|s| !s.is_empty()).peekable();
+        let Some(first) = sets.next() else { return PolygonSet::EMPTY };
+        if sets.peek().is_none() {
+            return first.clone();
+        }
+        let paths: Paths64 =
+            std::iter::once(first).chain(sets).flat_map(|s| to_paths(s.contours())).collect();
         run(ClipType::Union, paths, Paths64::new())
     }
 

@@ -17,7 +17,7 @@ impl PolygonSet {
 
 /// Douglas-Peucker on a closed contour: the two ends are its first point and the point farthest
 /// from it, both kept.
-fn simplify_ring(contour: &Contour, tolerance: f64) -> Contour {
+pub fn simplify_ring(contour: &Contour, tolerance: f64) -> Contour {
     let points = &contour.points;
     let Some(&first) = points.first() else { return Contour::default() };
     let far = (0..points.len()).max_by(|&a, &b| {
