@@ -28,7 +28,9 @@ export function reasonOf(error: unknown): string {
   return words[code] ?? (error instanceof Error ? error.message : String(error));
 }
 
-const engineCodes: Record<string, number> = { SettingsError: 2, ModelError: 3, FitError: 4 };
+/** Errors about what was typed, not about the model. */
+const aboutWords = ['SettingsError', 'UsageError'];
+const engineCodes: Record<string, number> = { UsageError: 2, SettingsError: 2, ModelError: 3, FitError: 4 };
 
 /** The exit code and the line for stderr. */
 export function verdict(error: unknown, models: readonly string[]): { code: number; line: string } {
@@ -50,7 +52,7 @@ function message(error: EngineError): string {
 /** The model's name in front of errors about it; settings errors name their own path. */
 function subject(error: EngineError, models: readonly string[]): string {
   if (error.source !== undefined) return `${error.source}: `;
-  return error.name !== 'SettingsError' && models.length === 1 ? `${models[0]}: ` : '';
+  return !aboutWords.includes(error.name) && models.length === 1 ? `${models[0]}: ` : '';
 }
 
 const oneLine = (text: string): string => text.replaceAll(/\s*\n\s*/g, ' ').trim();

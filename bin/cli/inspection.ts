@@ -4,8 +4,9 @@
 export function inWords(inspection: string): string {
   const facts = JSON.parse(inspection) as Record<string, unknown>;
   const { warnings, ...rest } = facts;
-  const width = Math.max(...Object.keys(rest).map((it) => it.length));
-  const lines = Object.entries(rest).map(([name, value]) => `${name.padEnd(width)}  ${words(value)}`);
+  const told = Object.entries(rest).filter(([, value]) => words(value) !== '');
+  const width = Math.max(...told.map(([name]) => name.length));
+  const lines = told.map(([name, value]) => `${name.padEnd(width)}  ${words(value)}`);
   return [...lines, ...warningLines(warnings)].map((line) => `${line}\n`).join('');
 }
 
@@ -16,11 +17,11 @@ function warningLines(warnings: unknown): string[] {
 
 function words(value: unknown): string {
   if (typeof value === 'number') return String(Math.round(value * 1000) / 1000);
-  if (Array.isArray(value)) return value.map(words).join(Array.isArray(value[0]) ? ' to ' : ' x ');
-  if (typeof value === 'object' && value !== null) {
-    return Object.entries(value)
-      .map(([name, it]) => `${name} ${words(it)}`)
-      .join(', ');
-  }
+  if (Array.isArray(value)) return value.map(words).join(' ');
+  if (isExtent(value)) return `${words(value.min)} to ${words(value.max)}`;
   return String(value);
+}
+
+function isExtent(value: unknown): value is { min: unknown; max: unknown } {
+  return typeof value === 'object' && value !== null && 'min' in value && 'max' in value;
 }

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { type Camera, fitTo, numbers, pan, toMm, toScreen, zoom } from '../../www/src/view/camera.ts';
+import { type Camera, canvasSize, fitTo, numbers, pan, toMm, toScreen, zoom } from '../../www/src/view/camera.ts';
 
 const size = { width: 400, height: 300 };
 const camera: Camera = { scale: 4, x: 110, y: 100 };
@@ -37,6 +37,8 @@ test('panning moves the picture with the pointer', () => {
   expect([after.x - before.x, after.y - before.y]).toEqual([30, -12]);
 });
 
-test('the painter gets pixels of the device', () => {
-  expect(numbers(camera, size, 2)).toEqual([8, 110, 100, 800, 600, 2]);
+test('the canvas has the pixels of the device', () => {
+  expect(numbers(camera, size, 2)).toEqual([4, 110, 100, 400, 300, 2]);
+  expect(canvasSize(numbers(camera, size, 1.5))).toEqual({ width: 600, height: 450 });
+  expect(canvasSize([1, 0, 0, 0, 0, 1])).toEqual({ width: 1, height: 1 });
 });

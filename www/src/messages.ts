@@ -22,7 +22,7 @@ export interface ModelSource {
 export type PictureView = 'iso' | 'top' | 'front';
 export type Theme = 'light' | 'dark';
 
-/** What the engine's canvas painter takes: px per mm, centre x and y (mm), width, height (px), pixel ratio. */
+/** What the engine's painter takes: CSS px per mm, centre x and y (mm), width and height (CSS px), pixel ratio. */
 export type CameraNumbers = readonly [number, number, number, number, number, number];
 
 /** Smallest x and y, largest x and y, mm. */
@@ -31,7 +31,6 @@ export type Bounds = readonly [number, number, number, number];
 /** What one colour of a picture stands for. */
 export interface LegendEntry {
   readonly role: string;
-  readonly label: string;
   readonly color: string;
   readonly length_mm: number;
 }
@@ -44,7 +43,7 @@ export type LeadRequest =
   | { readonly kind: 'prepare' }
   | { readonly kind: 'share'; readonly range: Range }
   | { readonly kind: 'slice'; readonly range: Range }
-  | { readonly kind: 'add'; readonly first: number; readonly meta: Uint8Array }
+  | { readonly kind: 'add'; readonly meta: Uint8Array }
   | { readonly kind: 'finish' }
   | { readonly kind: 'end' }
   | { readonly kind: 'drawLayer'; readonly layer: number }

@@ -2,7 +2,7 @@
 import type { Failure } from '../messages.ts';
 
 /** Names of errors that the engine throws on purpose; anything else is a bug of ours. */
-const expected = ['ModelError', 'SettingsError', 'FitError'];
+const expected = ['ModelError', 'SettingsError', 'FitError', 'UsageError'];
 
 /** An error of the engine. `source` is the name of the model file it is about, where there is one. */
 export class EngineError extends Error {

@@ -1,6 +1,7 @@
 // The lead lane's side of the conversation: it holds the models and the job.
 import type { Chunk, Job, Model, Scene } from '../generated/engine/foothold.js';
-import type { Bounds, LeadReply, LeadRequest, ModelSource, SlicedRange } from '../messages.ts';
+import type { Bounds, CameraNumbers, LeadReply, LeadRequest, ModelSource, SlicedRange, Theme } from '../messages.ts';
+import { canvasSize } from '../view/camera.ts';
 import { EngineError, toFailure } from './errors.ts';
 
 export type Engine = typeof import('../generated/engine/foothold.js');
@@ -35,7 +36,7 @@ export class Lead {
       case 'slice':
         return { kind: 'slice', ...this.#slice(request.range.first, request.range.last) };
       case 'add':
-        this.#current().add(request.first, request.meta);
+        this.#current().add(request.meta);
         return { kind: 'add' };
       case 'finish':
         return { kind: 'finish', ...this.#finish() };
@@ -93,7 +94,7 @@ export class Lead {
 
   #slice(first: number, last: number): SlicedRange {
     const chunk = this.#current().slice(first, last);
-    this.#current().add(first, chunk.meta());
+    this.#current().add(chunk.meta());
     return taken(chunk);
   }
 
@@ -117,9 +118,10 @@ export class Lead {
     return boundsOf(this.#scene);
   }
 
-  #paint(camera: readonly number[], theme: string): ImageBitmap {
+  #paint(camera: CameraNumbers, theme: Theme): ImageBitmap {
     if (this.#scene === undefined) throw new Error('there is no picture to paint');
-    const canvas = new OffscreenCanvas(Math.max(1, camera[3] ?? 1), Math.max(1, camera[4] ?? 1));
+    const { width, height } = canvasSize(camera);
+    const canvas = new OffscreenCanvas(width, height);
     const context = canvas.getContext('2d');
     if (context === null) throw new Error('this browser has no 2D canvas in workers');
     this.#scene.paint(context, Float64Array.from(camera), theme);

@@ -258,7 +258,7 @@ async function helperWork(lead: LeadLane, helper: HelperLane, queue: LayerQueue,
   for (let range = queue.take(HELPER_LAYERS); range !== undefined; range = queue.take(HELPER_LAYERS)) {
     const { share } = await lead.call({ kind: 'share', range });
     const { meta, ...sliced } = await helper.call({ kind: 'slice', share }, [share.buffer as ArrayBuffer]);
-    await lead.call({ kind: 'add', first: range.first, meta }, [meta.buffer as ArrayBuffer]);
+    await lead.call({ kind: 'add', meta }, [meta.buffer as ArrayBuffer]);
     keep(range, sliced);
   }
 }

@@ -144,7 +144,6 @@ export class FootholdApp extends Part {
     const { result, legend } = this.state;
     return html`<result-figures
       .report=${result?.report}
-      .costPerKg=${result === undefined ? 0 : costPerKg(result.settings)}
       .legend=${legend}
       @layer-change=${this.#layer}
     ></result-figures>`;
@@ -180,11 +179,6 @@ function choice(label: string, chosen: boolean, choose: () => void, off = false)
   return html`<button type="button" aria-pressed=${chosen} aria-disabled=${off} @click=${() => !off && choose()}>
     ${label}
   </button>`;
-}
-
-function costPerKg(settings: string): number {
-  const { filament } = JSON.parse(settings) as { filament?: { cost_per_kg?: number } };
-  return filament?.cost_per_kg ?? 0;
 }
 
 customElements.define('foothold-app', FootholdApp);

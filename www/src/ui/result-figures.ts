@@ -11,17 +11,14 @@ import { Part } from './part.ts';
 export class ResultFigures extends Part {
   static override properties = {
     report: { attribute: false },
-    costPerKg: { type: Number },
     legend: { attribute: false },
   };
   declare report: Report | undefined;
-  declare costPerKg: number;
   declare legend: readonly LegendEntry[];
 
   constructor() {
     super();
     this.report = undefined;
-    this.costPerKg = 0;
     this.legend = [];
   }
 
@@ -50,7 +47,7 @@ export class ResultFigures extends Part {
       [en.figures.layers, String(layers)],
       [en.figures.filament, en.figures.metres(filament.length_mm)],
       [en.figures.mass, en.figures.grams(filament.mass_g)],
-      [en.figures.cost, en.figures.money((filament.mass_g / 1000) * this.costPerKg)],
+      [en.figures.cost, en.figures.money(filament.cost)],
     ];
     return html`<dl class="figures">
       ${figures.map(([name, value]) => html`<div><dt>${name}</dt><dd>${value}</dd></div>`)}
@@ -95,7 +92,7 @@ export class ResultFigures extends Part {
 function legendRow(role: string, entry: LegendEntry | undefined, length: number, time: number): TemplateResult {
   const swatch = entry === undefined ? '' : `background:${entry.color}`;
   return html`<tr>
-    <th scope="row"><i class="swatch" style=${swatch} aria-hidden="true"></i>${entry?.label ?? words(role)}</th>
+    <th scope="row"><i class="swatch" style=${swatch} aria-hidden="true"></i>${words(role)}</th>
     <td>${entry === undefined ? '' : en.figures.metres(entry.length_mm)}</td>
     <td>${en.figures.metres(length)}</td>
     <td>${en.figures.duration(time)}</td>

@@ -61,10 +61,15 @@ export function toScreen(camera: Camera, point: Spot, size: Size): Spot {
   };
 }
 
-/** As the engine's painter takes it: in pixels of the device. */
+/** As the engine's painter takes it; `ratio` is device pixels per CSS pixel. */
 export function numbers(camera: Camera, size: Size, ratio: number): CameraNumbers {
+  return [camera.scale, camera.x, camera.y, size.width, size.height, ratio];
+}
+
+/** The canvas for it, in pixels of the device. */
+export function canvasSize([, , , width, height, ratio]: CameraNumbers): Size {
   const pixels = (length: number): number => Math.max(1, Math.round(length * ratio));
-  return [camera.scale * ratio, camera.x, camera.y, pixels(size.width), pixels(size.height), ratio];
+  return { width: pixels(width), height: pixels(height) };
 }
 
 const clamp = (scale: number): number => Math.min(Math.max(scale, SCALES[0]), SCALES[1]);

@@ -1,9 +1,10 @@
 // The view lane: owns the canvas of the layer view and an engine that paints on it.
 import * as engine from '../generated/engine/foothold.js';
-import type { LegendEntry, ToLane, ViewReply, ViewRequest } from '../messages.ts';
+import type { CameraNumbers, LegendEntry, Theme, ToLane, ViewReply, ViewRequest } from '../messages.ts';
 import { watchPanics } from '../slicer/errors.ts';
 import { serve } from '../slicer/lane.ts';
 import { boundsOf } from '../slicer/lead.ts';
+import { canvasSize } from './camera.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
 
@@ -27,9 +28,9 @@ function handle(request: ViewRequest): ViewReply {
   }
 }
 
-function paint(camera: readonly number[], theme: string): void {
+function paint(camera: CameraNumbers, theme: Theme): void {
   if (context === null || scene === undefined) return;
-  const [width = 1, height = 1] = camera.slice(3);
+  const { width, height } = canvasSize(camera);
   if (context.canvas.width !== width) context.canvas.width = width;
   if (context.canvas.height !== height) context.canvas.height = height;
   scene.paint(context, Float64Array.from(camera), theme);
