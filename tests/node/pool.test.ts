@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { Range } from '../../www/src/messages.ts';
-import { type Gcode, partsOf } from '../../www/src/slicer/gcode.ts';
+import { type Gcode, layerOf, partsOf } from '../../www/src/slicer/gcode.ts';
 import { LayerQueue, Pool, type Progress } from '../../www/src/slicer/pool.ts';
 import { expected, fakeLanes, layerText } from './fake-lanes.ts';
 
@@ -114,4 +114,12 @@ test('the queue hands out each layer once', () => {
   const stopped = new LayerQueue(30);
   stopped.stop();
   expect(stopped.take(1)).toBeUndefined();
+});
+
+test('a layer comes with the text that joins it to the one before', async () => {
+  const pool = new Pool(fakeLanes({ layers: 30 }), 2);
+  await pool.open(sources);
+  const gcode = await pool.slice({ settings: '{}' });
+  const layer = (k: number): string => Buffer.from(layerOf(gcode, k)).toString();
+  expect([layer(0), layer(7), layer(29)]).toEqual(['<layer 0\n', '|layer 7\n', '|layer 29\n']);
 });

@@ -84,8 +84,8 @@ export const en = {
     range: (low: string, high: string, unit: string) => `From ${low} to ${high}${unit === '' ? '' : ` ${unit}`}`,
     whole: 'A whole number, please',
     number: 'A number, please',
-    on: 'on',
-    off: 'off',
+    /** Units as a person writes them; the others stay as the engine names them. */
+    unit: (name: string) => ({ 'degrees C': '°C', 'mm/s2': 'mm/s²', 'mm3/s': 'mm³/s', 'g/cm3': 'g/cm³' })[name] ?? name,
   },
   problem: {
     ModelError: { title: 'This model can’t be used', advice: 'Export it again as STL, or open another one.' },

@@ -18,13 +18,27 @@ export function partsOf({ layers, joined }: Gcode): Uint8Array<ArrayBuffer>[] {
   });
 }
 
-/** The size of the file in bytes. */
-export function sizeOf(gcode: Gcode): number {
-  return partsOf(gcode).reduce((total, part) => total + part.length, 0);
+/** A layer as it stands in the file: from the joining text in front of it, which moves the head there, to its end. */
+export function layerOf(gcode: Gcode, layer: number): Uint8Array {
+  const { pieces } = gcode.joined;
+  const sources = pieces.filter((_, k) => k % 3 === 0);
+  const first = sources.indexOf(layer + 1);
+  const before = first > 0 && sources[first - 1] === 0 ? first - 1 : first;
+  const parts = partsOf(gcode).slice(before, sources.lastIndexOf(layer + 1) + 1);
+  return joined(parts);
 }
 
-/** A layer's height above the bed, mm, as its text says it near its beginning; empty when it does not. */
+function joined(parts: readonly Uint8Array[]): Uint8Array {
+  const all = new Uint8Array(parts.reduce((total, part) => total + part.length, 0));
+  let at = 0;
+  for (const part of parts) {
+    all.set(part, at);
+    at += part.length;
+  }
+  return all;
+}
+
+/** A layer's height above the bed, mm, as its text says it; empty when it does not. */
 export function heightOf(layer: Uint8Array): string {
-  const start = new TextDecoder().decode(layer.subarray(0, 256));
-  return /^;Z:([\d.]+)/m.exec(start)?.[1] ?? '';
+  return /^;Z:([\d.]+)/m.exec(new TextDecoder().decode(layer))?.[1] ?? '';
 }

@@ -6,9 +6,9 @@ import type { LegendEntry, PictureView } from '../messages.ts';
 import type { Session } from '../session.ts';
 import { withChange } from '../settings/changes.ts';
 import type { Schema } from '../settings/fields.ts';
-import { heightOf } from '../slicer/gcode.ts';
-import { initial, isStale, type State, type Store } from '../state.ts';
-import type { Painter } from '../view/painter.ts';
+import { heightOf, layerOf } from '../slicer/gcode.ts';
+import { initial, isStale, type Result, type State, type Store } from '../state.ts';
+import type { LayerText, Painter } from '../view/painter.ts';
 
 import '../view/layer-view.ts';
 import './drop-zone.ts';
@@ -34,12 +34,22 @@ export class FootholdApp extends Part {
   declare session: Session | undefined;
   declare painter: Painter | undefined;
 
+  /** The layer shown and what it was made of; kept while neither changes. */
+  #shown: (LayerText & { readonly result: Result; readonly layer: number; readonly height: string }) | undefined;
+
   constructor() {
     super();
     this.state = initial;
     this.store = undefined;
     this.session = undefined;
     this.painter = undefined;
+  }
+
+  protected override willUpdate(): void {
+    const { result, layer } = this.state;
+    if (result === this.#shown?.result && layer === this.#shown?.layer) return;
+    const text = result === undefined ? new Uint8Array() : layerOf(result.gcode, layer);
+    this.#shown = result && { result, layer, text, settings: result.settings, height: heightOf(text) };
   }
 
   protected override render(): TemplateResult {
@@ -102,7 +112,6 @@ export class FootholdApp extends Part {
 
   #picture(): TemplateResult {
     const { show, side, result, layer } = this.state;
-    const text = result?.gcode.layers[layer];
     return html`<div class="picture">
       <layer-view
         .painter=${this.painter}
@@ -110,7 +119,7 @@ export class FootholdApp extends Part {
         .side=${side}
         .model=${this.state.model.kind === 'open' ? this.state.model : undefined}
         .job=${result}
-        .layer=${this.#layerText()}
+        .layer=${this.#shown}
         .label=${this.#label()}
         @legend=${({ detail }: CustomEvent<readonly LegendEntry[]>) => this.store?.update({ legend: detail })}
         @layer-step=${({ detail }: CustomEvent<number>) => this.session?.showLayer(layer + detail)}
@@ -120,18 +129,12 @@ export class FootholdApp extends Part {
           ? html`<layer-slider
             .layer=${layer}
             .total=${result.gcode.layers.length}
-            .height=${text === undefined ? '' : heightOf(text)}
+            .height=${this.#shown?.height ?? ''}
             @layer-change=${this.#layer}
           ></layer-slider>`
           : nothing
       }
     </div>`;
-  }
-
-  #layerText(): { text: Uint8Array; settings: string } | undefined {
-    const { result, layer } = this.state;
-    const text = result?.gcode.layers[layer];
-    return result === undefined || text === undefined ? undefined : { text, settings: result.settings };
   }
 
   #label(): string {

@@ -1,6 +1,6 @@
 // What the print takes: time, filament, cost, and which colour stands for what.
 import { html, nothing, type TemplateResult } from 'lit';
-import type { Report } from '../generated/report.ts';
+import type { Report, RoleUse } from '../generated/report.ts';
 import { en } from '../i18n/en.ts';
 import type { LegendEntry } from '../messages.ts';
 import { words } from '../settings/fields.ts';
@@ -15,11 +15,17 @@ export class ResultFigures extends Part {
   };
   declare report: Report | undefined;
   declare legend: readonly LegendEntry[];
+  /** Colours of the roles seen so far: a layer's legend names only those on it. */
+  readonly #colours = new Map<string, string>();
 
   constructor() {
     super();
     this.report = undefined;
     this.legend = [];
+  }
+
+  protected override willUpdate(): void {
+    for (const { role, color } of this.legend) this.#colours.set(role, color);
   }
 
   protected override render(): TemplateResult {
@@ -68,9 +74,21 @@ export class ResultFigures extends Part {
         </tr>
       </thead>
       <tbody>
-        ${rows.map(([role, { length_mm, time_s }]) => legendRow(role, shown.get(role), length_mm, time_s))}
+        ${rows.map(([role, it]) => this.#row(role, shown.get(role), it))}
       </tbody>
     </table>`;
+  }
+
+  #row(role: string, shown: LegendEntry | undefined, { length_mm, time_s }: RoleUse): TemplateResult {
+    const colour = this.#colours.get(role);
+    return html`<tr>
+      <th scope="row">
+        <i class="swatch" style=${colour === undefined ? '' : `background:${colour}`} aria-hidden="true"></i>${words(role)}
+      </th>
+      <td>${shown === undefined ? '' : en.figures.metres(shown.length_mm)}</td>
+      <td>${en.figures.metres(length_mm)}</td>
+      <td>${en.figures.duration(time_s)}</td>
+    </tr>`;
   }
 
   #remarks(remarks: readonly Remark[]): TemplateResult | typeof nothing {
@@ -87,16 +105,6 @@ export class ResultFigures extends Part {
       ${en.figures.showLayer(layer + 1)}
     </button>`;
   }
-}
-
-function legendRow(role: string, entry: LegendEntry | undefined, length: number, time: number): TemplateResult {
-  const swatch = entry === undefined ? '' : `background:${entry.color}`;
-  return html`<tr>
-    <th scope="row"><i class="swatch" style=${swatch} aria-hidden="true"></i>${words(role)}</th>
-    <td>${entry === undefined ? '' : en.figures.metres(entry.length_mm)}</td>
-    <td>${en.figures.metres(length)}</td>
-    <td>${en.figures.duration(time)}</td>
-  </tr>`;
 }
 
 customElements.define('result-figures', ResultFigures);

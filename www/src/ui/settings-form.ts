@@ -77,7 +77,7 @@ export class SettingsForm extends Part {
     return html`<div class="field ${changed ? 'changed' : ''} ${field.kind}">
       <label for=${id} title=${field.help}>${field.label}</label>
       ${this.#control(field, id)}
-      <span class="unit">${'unit' in field ? field.unit : ''}</span>
+      <span class="unit">${'unit' in field ? en.settings.unit(field.unit) : ''}</span>
       ${changed ? this.#reset(field) : nothing} ${this.#note(field, id)}
     </div>`;
   }
@@ -162,7 +162,7 @@ function textOf(value: Value): string {
 
 function rangeOf(field: Field): string {
   if (!('unit' in field) || field.low === undefined || field.high === undefined) return '';
-  return en.settings.range(String(field.low), String(field.high), field.unit);
+  return en.settings.range(String(field.low), String(field.high), en.settings.unit(field.unit));
 }
 
 function groupLabel(path: string): string {

@@ -3,7 +3,7 @@ import type { Bounds, CameraNumbers, LegendEntry, PictureView, Theme } from '../
 import type { Pool } from '../slicer/pool.ts';
 import type { ViewLane } from '../slicer/threads.ts';
 
-/** A layer's G-code and the settings it was made with. */
+/** A layer's G-code, with the travel to it, and the settings it was made with. */
 export interface LayerText {
   readonly text: Uint8Array;
   readonly settings: string;
@@ -22,7 +22,7 @@ export interface Painter {
 export function painter(pool: Pool, lane: ViewLane): Painter {
   return {
     adopt: async (canvas) => void (await lane.call({ kind: 'canvas', canvas }, [canvas])),
-    layer: ({ text, settings }) => lane.call({ kind: 'layer', text: text.slice(), settings }),
+    layer: ({ text, settings }) => lane.call({ kind: 'layer', text, settings }),
     paintLayer: async (camera, theme) => void (await lane.call({ kind: 'paint', camera, theme })),
     picture: (side) => pool.picture(side),
     paintPicture: (camera, theme) => pool.paint(camera, theme),
