@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde_json::{Map, Value};
 
+use crate::adhesion::AdhesionOptions;
 use crate::gcode::{FilamentOptions, GcodeOptions, PrinterOptions, RetractionOptions, SpeedOptions};
 use crate::options::{Checked, OutOfRange, join_path};
 use crate::region::first_layer::FirstLayerOptions;
@@ -32,6 +33,8 @@ crate::options! {
         infill: group InfillOptions;
         /// Where loops start.
         seam: group SeamOptions;
+        /// What holds the part on the bed.
+        adhesion: group AdhesionOptions;
         /// Speeds by role.
         speed: group SpeedOptions;
         /// Pulling the filament back for travels.

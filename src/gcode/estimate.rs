@@ -68,17 +68,17 @@ impl Limits {
 pub fn move_times(start: Place, z: i32, moves: &[Move], limits: &Limits) -> Vec<f64> {
     let mut times = vec![0.0; moves.len()];
     let mut run = Run::new(limits);
-    let (mut at, mut z) = (start.mm(), z);
+    let (mut at, mut z) = (start, z);
     for (i, &step) in moves.iter().enumerate() {
         match step {
             Move::Role(_) | Move::Width(_) | Move::Fan(_) => {}
             Move::Extrude { to, filament, feed } => {
-                run.push(i, to.mm() - at, feed, Some(f64::from(filament) / FILAMENT_STEPS));
-                at = to.mm();
+                run.push(i, at.way(to), feed, Some(f64::from(filament) / FILAMENT_STEPS));
+                at = to;
             }
             Move::Travel { to, feed } => {
-                run.push(i, to.mm() - at, feed, None);
-                at = to.mm();
+                run.push(i, at.way(to), feed, None);
+                at = to;
             }
             Move::Filament { filament, feed } => {
                 run.stop(&mut times);

@@ -128,7 +128,10 @@ pub fn format_duration(seconds: f64) -> String {
 }
 
 /// Moves between two stops that belong to no layer.
+#[derive(Default)]
 struct Way {
+    /// Height of the beads among them, micrometres.
+    bead_height: Option<i32>,
     moves: Vec<Move>,
     /// Seconds that pass before the moves (for text of other hands) and with them.
     time_s: f64,
@@ -171,10 +174,17 @@ impl<'a> Route<'a> {
     fn start(&mut self, text: &str, facts: PrintFacts) -> Way {
         let time_s = self.other_hands(text);
         if self.filament_mm > 0.0 {
-            return Way { moves: Vec::new(), time_s };
+            return Way { time_s, ..Way::default() };
         }
         let moves = self.prime_line(facts);
-        Way { time_s: time_s + self.book(&moves), moves }
+        let bead_height = (!moves.is_empty()).then(|| micrometres(self.prime_height(facts)));
+        Way { bead_height, time_s: time_s + self.book(&moves), moves }
+    }
+
+    /// As high as the first layer, if that is a height at which a bead can be laid alone, mm.
+    fn prime_height(&self, facts: PrintFacts) -> f64 {
+        let nozzle = self.options.printer.nozzle_diameter;
+        facts.first_layer_height.clamp(nozzle / 4.0, nozzle * 0.75)
     }
 
     /// The line along the front edge that fills the nozzle.
@@ -185,9 +195,7 @@ impl<'a> Route<'a> {
         if length <= 0.0 || facts.layer_count == 0 {
             return Vec::new();
         }
-        // As high as the first layer, if that is a height at which a bead can be laid alone.
-        let height =
-            facts.first_layer_height.clamp(printer.nozzle_diameter / 4.0, printer.nozzle_diameter * 0.75);
+        let height = self.prime_height(facts);
         let width = printer.nozzle_diameter * PRIME_WIDTH;
         let area = bead_area(width, height);
         let feed = feed_rate(speed.prime.min(filament.max_volumetric_speed / area));
@@ -208,7 +216,7 @@ impl<'a> Route<'a> {
 
     /// The way to a layer's start. The layer itself is booked as well.
     fn reach(&mut self, layer: &LayerSummary) -> Way {
-        let Some(stops) = layer.stops else { return Way { moves: Vec::new(), time_s: 0.0 } };
+        let Some(stops) = layer.stops else { return Way::default() };
         let to = Place::of(stops.start);
         let z = micrometres(layer.print_z);
         let distance = self.at.distance(to);
@@ -228,7 +236,7 @@ impl<'a> Route<'a> {
         for (&role, &used) in &layer.by_role {
             self.by_role.entry(role).or_default().add(used);
         }
-        Way { moves, time_s }
+        Way { moves, time_s, bead_height: None }
     }
 
     /// A last retraction, and the end code.
@@ -240,7 +248,7 @@ impl<'a> Route<'a> {
             moves.push(Move::Filament { filament: -pulled, feed: feed_rate(retraction.speed) });
         }
         let time_s = self.book(&moves);
-        Way { moves, time_s: time_s + self.other_hands(text) }
+        Way { moves, time_s: time_s + self.other_hands(text), bead_height: None }
     }
 
     /// Books text of other hands and returns its time.
@@ -344,6 +352,9 @@ impl<'a> FileWriter<'a> {
 
     fn way(&mut self, way: &Way) {
         let mut writer = Writer::after(std::mem::take(&mut self.glue));
+        if let Some(height) = way.bead_height {
+            writer.length_comment(b";HEIGHT:", height);
+        }
         for &step in &way.moves {
             writer.write(step);
         }

@@ -51,7 +51,8 @@ pub struct LayerInput<'a> {
     /// Beads in printing order.
     pub paths: &'a [Path],
     /// For each path whether the way to it crosses an outline of the part; filament is pulled back
-    /// on such ways only, elsewhere what oozes stays inside.
+    /// on such ways only, elsewhere what oozes stays inside. A path without an entry counts as
+    /// reached across an outline.
     pub crosses_outline: &'a [bool],
 }
 
@@ -148,9 +149,14 @@ impl Place {
         dvec2(f64::from(self.x), f64::from(self.y)) / 1000.0
     }
 
+    /// The way to another place, mm.
+    pub fn way(self, to: Place) -> DVec2 {
+        dvec2(f64::from(to.x) - f64::from(self.x), f64::from(to.y) - f64::from(self.y)) * 0.001
+    }
+
     /// Distance in mm.
     pub fn distance(self, other: Place) -> f64 {
-        self.mm().distance(other.mm())
+        self.way(other).length()
     }
 }
 

@@ -14,6 +14,9 @@ const WIDTH_STEP: f64 = 0.02;
 /// thousand lines a second stutter at usual speeds.
 const SHORTEST_PIECE: f64 = 0.1;
 
+/// Most pieces of one segment, so that a garbled width costs no time; 20 mm of width in steps.
+const MOST_PIECES: f64 = 1000.0;
+
 /// A bead of changing width states a new width when the flow departs from the stated one by more
 /// than this share: well within the 1 % promised, and few enough lines.
 const WIDTH_TOLERANCE: f64 = 0.005;
@@ -40,7 +43,8 @@ pub struct LayerPlan {
 /// Plans one layer. Paths without length are left out.
 pub fn plan_layer(layer: &LayerInput<'_>, options: &GcodeOptions) -> LayerPlan {
     let mut planner = Planner::new(layer, options);
-    for (path, &crosses) in layer.paths.iter().zip(layer.crosses_outline) {
+    let told = layer.crosses_outline.iter().copied().chain(std::iter::repeat(true));
+    for (path, crosses) in layer.paths.iter().zip(told) {
         planner.path(path, crosses);
     }
     LayerPlan {
@@ -160,8 +164,8 @@ impl<'a> Planner<'a> {
     fn tapered(&mut self, role: Role, to: Place, [from_width, to_width]: [f64; 2]) {
         let (start, end) = (self.at.mm(), to.mm());
         let wanted = ((to_width - from_width).abs() / WIDTH_STEP).ceil();
-        let room = (start.distance(end) / SHORTEST_PIECE).floor().max(1.0);
-        let pieces = wanted.clamp(1.0, room) as u32;
+        let room = (start.distance(end) / SHORTEST_PIECE).floor();
+        let pieces = wanted.min(room).clamp(1.0, MOST_PIECES) as u32;
         for k in 0..pieces {
             let share = |part: f64| (f64::from(k) + part) / f64::from(pieces);
             let width = from_width + (to_width - from_width) * share(0.5);

@@ -403,8 +403,8 @@ impl<'a> Reader<'a> {
     /// An arc in the plane as chords; z and filament run evenly along it.
     fn arc(&mut self, words: &Words, clockwise: bool) -> Option<()> {
         let from = self.machine.at;
-        let center = arc_center(from, words, &self.machine, clockwise)?;
         let (to, filament) = self.machine.target(words);
+        let center = arc_center(from, to, words, self.machine.scale(), clockwise)?;
         let spoke = dvec2(from[0], from[1]) - center;
         let end_spoke = dvec2(to[0], to[1]) - center;
         let sweep = arc_sweep(spoke, end_spoke, clockwise);
@@ -446,11 +446,12 @@ impl Machine {
         if let Some(feed) = words.f {
             self.feed = (feed * scale).max(0.0);
         }
-        let to = std::array::from_fn(|i| match words.xyz[i] {
-            Some(value) if self.relative => self.at[i] + value * scale,
-            Some(value) => value * scale + self.shift[i],
-            None => self.at[i],
-        });
+        let mut to = self.at;
+        for (i, to) in to.iter_mut().enumerate() {
+            if let Some(value) = words.xyz[i] {
+                *to = value * scale + if self.relative { *to } else { self.shift[i] };
+            }
+        }
         (to, self.filament(words.e.map(|e| e * scale)))
     }
 
@@ -612,7 +613,8 @@ fn number(text: &[u8]) -> Option<(f64, usize)> {
     for &byte in &text[used..] {
         match byte {
             b'0'..=b'9' => {
-                mantissa = mantissa.saturating_mul(10).saturating_add(u64::from(byte - b'0'));
+                // Wraps only where the text has so many digits that the mantissa is not used.
+                mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(byte - b'0'));
                 digits += 1;
                 decimals += u32::from(point);
             }
@@ -635,16 +637,10 @@ fn number(text: &[u8]) -> Option<(f64, usize)> {
 }
 
 /// Centre of an arc from I and J, or from R (Marlin, marlinfw.org/docs/gcode/G002-G003.html).
-fn arc_center(from: [f64; 3], words: &Words, machine: &Machine, clockwise: bool) -> Option<DVec2> {
-    let scale = machine.scale();
+fn arc_center(from: [f64; 3], to: [f64; 3], words: &Words, scale: f64, clockwise: bool) -> Option<DVec2> {
     let start = dvec2(from[0], from[1]);
     if let Some(radius) = words.r {
-        let coordinate = |i: usize| match words.xyz[i] {
-            Some(value) if machine.relative => from[i] + value * scale,
-            Some(value) => value * scale + machine.shift[i],
-            None => from[i],
-        };
-        let chord = dvec2(coordinate(0), coordinate(1)) - start;
+        let chord = dvec2(to[0], to[1]) - start;
         let half = chord.length() / 2.0;
         if half == 0.0 {
             return None;
@@ -676,4 +672,124 @@ fn chord_count(radius: f64, sweep: f64) -> f64 {
     // A radius of 0 gives a step of pi; a huge one a step of 0 and an infinite count.
     let count = (sweep / step).ceil();
     if count.is_nan() { 1.0 } else { count.clamp(1.0, MOST_CHORDS) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn moves(text: &str) -> Vec<ReadMove> {
+        Reader::new(text.as_bytes()).collect()
+    }
+
+    fn filament(text: &str) -> Vec<f64> {
+        moves(text).iter().map(|m| m.filament_mm).collect()
+    }
+
+    #[test]
+    fn extrusion_is_absolute_until_m83_or_g91() {
+        assert_eq!(filament("G1 X1 E2\nG1 X2 E3\nG92 E0\nG1 X3 E0.5"), [2.0, 1.0, 0.5]);
+        assert_eq!(filament("M83\nG90\nG1 X1 E2\nG1 X2 E3"), [2.0, 3.0]);
+        assert_eq!(filament("G92 E5\nG91\nG1 E-1\nG90\nG1 E5"), [-1.0, 1.0]);
+    }
+
+    #[test]
+    fn positions_follow_g91_g92_g20_and_g28() {
+        let ends = |text: &str| moves(text).iter().map(|m| m.to).collect::<Vec<_>>();
+        assert_eq!(ends("G1 X1 Y2\nG91\nG1 X1 Z3"), [[1.0, 2.0, 0.0], [2.0, 2.0, 3.0]]);
+        // After G92 X0 at x = 5, X1 is at 6.
+        assert_eq!(
+            ends("G1 X5\nG92 X0\nG1 X1\nG28 X\nG1 X1"),
+            [[5.0, 0.0, 0.0], [6.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
+        );
+        assert_eq!(ends("G20\nG1 X1"), [[25.4, 0.0, 0.0]]);
+    }
+
+    #[test]
+    fn spellings_of_a_move() {
+        let usual = moves("G1 X1.5 Y-.25 F600");
+        for other in ["g1x1.5y-0.25f600", "N7 G01 X1.50 Y-0.2500 F600*33", "  G1 X 1.5 Y -.25 F600 ; words\r"]
+        {
+            assert_eq!(moves(other), usual, "{other}");
+        }
+        assert_eq!((usual[0].to, usual[0].speed), ([1.5, -0.25, 0.0], 10.0));
+    }
+
+    #[test]
+    fn malformed_lines_are_left_out_and_reported() {
+        let found =
+            read(b"G1 X1 E1\nG1 X\nG1 X2 Y=3\n?\nG1 X99999999\nSET_FAN S=1\nM117 hi!\nT0\nG1 X3 E2", 1.75);
+        assert_eq!(found.warnings.iter().map(|w| w.line).collect::<Vec<_>>(), [2, 3, 4, 5]);
+        assert_eq!(found.layers[0].strands[0].points, [dvec2(0.0, 0.0), dvec2(1.0, 0.0), dvec2(3.0, 0.0)]);
+        assert_eq!(found.warnings[0].to_string(), "line 2: not understood, left out");
+    }
+
+    #[test]
+    fn arcs_become_chords_that_hug_them() {
+        // A quarter circle of radius 10 from (10, 0) to (0, 10), anticlockwise; length 15.70796 mm.
+        for quarter in ["G1 X10\nM83\nG3 X0 Y10 I-10 J0 E1", "G1 X10\nM83\nG3 X0 Y10 R10 E1"] {
+            let chords = &moves(quarter)[1..];
+            let length: f64 = chords.iter().map(ReadMove::length).sum();
+            assert!((length - 15.707_96).abs() < 0.02, "{length}");
+            assert!((chords.iter().map(|c| c.filament_mm).sum::<f64>() - 1.0).abs() < 1e-12);
+            for c in chords {
+                let middle = dvec2(c.from[0] + c.to[0], c.from[1] + c.to[1]) / 2.0;
+                assert!((10.0 - ARC_TOLERANCE - 1e-9..=10.0).contains(&middle.length()));
+            }
+            assert_eq!(chords.last().map(|c| c.to), Some([0.0, 10.0, 0.0]));
+        }
+        let length = |text: &str| moves(text).iter().skip(1).map(ReadMove::length).sum::<f64>();
+        // The same ends clockwise: the other three quarters. A full circle returns to its start.
+        assert!((length("G1 X10\nG2 X0 Y10 I-10") - 47.123_89).abs() < 0.05);
+        assert!((length("G1 X10\nG2 X0 Y10 R-10") - 47.123_89).abs() < 0.05);
+        assert!((length("G1 X10\nG2 I-10") - 62.831_85).abs() < 0.07);
+    }
+
+    #[test]
+    fn layers_and_types_of_other_slicers() {
+        let prusa = ";LAYER_CHANGE\n;Z:0.2\n;HEIGHT:0.2\nM83\nG1 Z0.2\n;TYPE:External perimeter\n;WIDTH:0.45\nG1 X9 E1\n";
+        let cura = ";Layer height: 0.2\n;LAYER_COUNT:1\n;LAYER:0\nM82\nG0 Z0.2\n;TYPE:WALL-OUTER\nG1 X9 E1\n";
+        let bambu = "; CHANGE_LAYER\n; Z_HEIGHT: 0.2\n; LAYER_HEIGHT: 0.2\nG1 Z0.2\n; FEATURE: Outer wall\n; LINE_WIDTH: 0.42\nG1 X9 E1\n";
+        for text in [prusa, cura, bambu] {
+            let found = read(text.as_bytes(), 1.75);
+            assert_eq!(found.layers.len(), 1, "{text}");
+            let layer = &found.layers[0];
+            assert_eq!((layer.z, layer.height), (0.2, 0.2));
+            assert_eq!(layer.strands[0].role, Some(Role::OuterWall));
+            assert!((layer.strands[0].volume_mm3() - 2.405_281_9).abs() < 1e-6);
+        }
+        // Width from volume: 2.4052819 / 9 = 0.2672535 mm2; less pi 0.01 and over 0.2 is 1.1791882 + 0.2.
+        let width = read(cura.as_bytes(), 1.75).layers[0].strands[0].segments[0].width;
+        assert!((width - 1.379_188).abs() < 1e-5, "{width}");
+    }
+
+    #[test]
+    fn files_without_marks_are_cut_by_height() {
+        let found = read(b"M83\nG1 Z0.3\nG1 X9 E1\nG1 Z2\nG1 X1\nG1 Z0.5\nG1 X9 E1\nG1 Y9 E1\n", 1.75);
+        let heights: Vec<[f64; 2]> = found.layers.iter().map(|l| [l.z, l.height]).collect();
+        assert_eq!(heights, [[0.3, 0.3], [0.5, 0.2]]);
+        assert_eq!(found.layers[1].strands[0].segments.len(), 2);
+    }
+
+    #[test]
+    fn travels_and_retractions_part_strands() {
+        let found = read(
+            b";LAYER_CHANGE\nM83\nG1 X9 E1\nG1 E-1\nG1 X20\nG1 E1\nG1 X30 E1\n;TYPE:Perimeter\nG1 X40 E1",
+            1.75,
+        );
+        let layer = &found.layers[0];
+        assert_eq!(layer.strands.len(), 3);
+        assert_eq!((layer.travels.len(), layer.retractions), (1, 1));
+    }
+
+    #[test]
+    fn long_numbers_are_read_rightly_or_refused() {
+        let value = |text: &str| number(text.as_bytes()).map(|(v, _)| v);
+        assert_eq!(value("0.1"), Some(0.1));
+        assert_eq!(value("-123.456789012345678901"), Some(-123.456_789_012_345_68));
+        assert_eq!(value("00000000000000000000012.5"), Some(12.5));
+        for bad in ["", "-", ".", "x", "123456789", "9999999999999999999999999999999999999999"] {
+            assert_eq!(value(bad), None, "{bad}");
+        }
+    }
 }

@@ -155,13 +155,13 @@ impl Line {
     /// A number given in thousandths, trailing zeros dropped.
     fn thousandths(&mut self, value: i64) -> &mut Self {
         let size = self.sign(value);
-        self.integer(size / 1000).fraction(size % 1000, 100)
+        self.integer(size / 1000).fraction(digits(size % 1000 * 100))
     }
 
     /// A number given in hundred thousandths, trailing zeros dropped.
     fn hundred_thousandths(&mut self, value: i64) -> &mut Self {
         let size = self.sign(value);
-        self.integer(size / 100_000).fraction(size % 100_000, 10_000)
+        self.integer(size / 100_000).fraction(digits(size % 100_000))
     }
 
     /// Writes the minus of a value that fits 32 bits and returns its size.
@@ -173,31 +173,28 @@ impl Line {
     }
 
     fn integer(&mut self, value: u32) -> &mut Self {
-        let mut place = 1;
-        while place <= value / 10 {
-            place *= 10;
+        // Nearly every number is below 100,000; two halves cover the rest.
+        if value >= 100_000 {
+            return self.integer(value / 100_000).text(&digits(value % 100_000));
         }
-        let mut rest = value;
-        while place > 0 {
-            self.byte(b'0' + (rest / place) as u8);
-            rest %= place;
-            place /= 10;
-        }
-        self
+        let digits = digits(value);
+        let zeros = digits[..4].iter().take_while(|&&d| d == b'0').count();
+        self.text(&digits[zeros..])
     }
 
-    /// The digits behind the point, the first one worth `place`, as far as they are not 0.
-    fn fraction(&mut self, mut rest: u32, mut place: u32) -> &mut Self {
-        if rest > 0 {
-            self.byte(b'.');
+    /// The digits behind the point, without those that are 0 to the end.
+    fn fraction(&mut self, digits: [u8; 5]) -> &mut Self {
+        match digits.iter().rposition(|&d| d != b'0') {
+            Some(last) => self.byte(b'.').text(&digits[..=last]),
+            None => self,
         }
-        while rest > 0 {
-            self.byte(b'0' + (rest / place) as u8);
-            rest %= place;
-            place /= 10;
-        }
-        self
     }
+}
+
+/// The five digits of a number below 100,000. Divisors known to the compiler become multiplications.
+fn digits(value: u32) -> [u8; 5] {
+    let digit = |n: u32| b'0' + (n % 10) as u8;
+    [digit(value / 10_000), digit(value / 1000), digit(value / 100), digit(value / 10), digit(value)]
 }
 
 #[cfg(test)]

@@ -51,7 +51,8 @@ pub struct Inspection {
     pub vertices: usize,
     /// The smallest box around the part, mm.
     pub bounds: Extent,
-    /// Enclosed volume, mm3. Where shells overlap, the common part counts once for each.
+    /// Enclosed volume, mm3. An open surface is closed for this by the cone from its border to the
+    /// border's centre; where shells overlap, the common part counts once for each.
     pub volume_mm3: f64,
     /// Area of the surface, mm2.
     pub area_mm2: f64,
@@ -102,7 +103,7 @@ impl LoadedModel {
             triangles_kept: mesh.triangles.len(),
             vertices: mesh.vertices.len(),
             bounds: Extent::from(bounds),
-            volume_mm3: mesh.volume(),
+            volume_mm3: condition.volume,
             area_mm2: mesh.area(),
             shells: condition.shells,
             open_edges: condition.open_edges,
@@ -175,8 +176,7 @@ fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
 }
 
 fn condition_warnings(condition: &Condition) -> Vec<Warning> {
-    let Condition { open_edges, unbalanced_edges, twisted_edges, shells: _, non_manifold_edges: _ } =
-        *condition;
+    let Condition { open_edges, unbalanced_edges, twisted_edges, .. } = *condition;
     let rows = [
         ("open_edges", open_edges, "the surface has a hole there, and layers are closed by guess"),
         (

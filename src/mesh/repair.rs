@@ -31,8 +31,11 @@ pub struct Repairs {
 }
 
 /// What a mesh is like once it is repaired.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Condition {
+    /// Enclosed volume, mm3. What is open is closed for this by the cone from its border to the
+    /// border's centre; where bodies overlap, the common part counts once for each.
+    pub volume: f64,
     /// Parts that share no edge with each other.
     pub shells: usize,
     /// Edges with one triangle.
@@ -211,11 +214,12 @@ fn face_outward(mesh: &mut Mesh, topology: &Topology, repairs: &mut Repairs) -> 
     let mut patches = topology.patches(mesh);
     keep_the_majority(&mut patches);
     let bodies = bodies(mesh, topology, &patches);
-    let Turned { flipped_faces, inverted_bodies } =
+    let Turned { flipped_faces, inverted_bodies, volume } =
         turn::turn_inside_out(mesh, topology, &bodies, &mut patches.turned);
     repairs.flipped_faces = flipped_faces;
     repairs.inverted_shells = inverted_bodies;
     let condition = Condition {
+        volume,
         shells: shell_count(topology, &patches),
         open_edges: topology.open_edges(),
         non_manifold_edges: topology.non_manifold_edges(),

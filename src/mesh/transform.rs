@@ -40,7 +40,7 @@ impl Mesh {
             return Err(TransformError::NotInvertible);
         }
         let vertices: Vec<Vec3> = self.vertices.iter().map(|v| moved(by, *v)).collect();
-        if vertices.iter().any(|v| !(v.abs().max_element() <= REACH_MM)) {
+        if !vertices.iter().flat_map(|v| v.to_array()).all(|x| x.abs() <= REACH_MM) {
             return Err(TransformError::TooFar);
         }
         let mut triangles = self.triangles.clone();

@@ -16,6 +16,8 @@ pub(super) struct Turned {
     pub(super) flipped_faces: usize,
     /// Bodies turned with all their triangles.
     pub(super) inverted_bodies: usize,
+    /// Volume of all bodies after that, mm3.
+    pub(super) volume: f64,
 }
 
 /// Decides for each body whether it is inside out, and changes `turned` (by triangle; true where it
@@ -35,10 +37,11 @@ pub(super) fn turn_inside_out(
     for (&body, turned) in bodies.of.iter().zip(turned.iter_mut()) {
         *turned ^= inside_out[body as usize];
     }
-    count(bodies, turned)
+    let volumes = measures.iter().zip(&inside_out).map(|(m, &turn)| if turn { -m.volume } else { m.volume });
+    count(bodies, turned, volumes.sum())
 }
 
-fn count(bodies: &Bodies, turned: &[bool]) -> Turned {
+fn count(bodies: &Bodies, turned: &[bool], volume: f64) -> Turned {
     let mut triangles = vec![[0usize; 2]; bodies.count];
     for (&body, &turned) in bodies.of.iter().zip(turned) {
         triangles[body as usize][usize::from(turned)] += 1;
@@ -47,6 +50,7 @@ fn count(bodies: &Bodies, turned: &[bool]) -> Turned {
     Turned {
         flipped_faces: partly.map(|[_, turned]| turned).sum(),
         inverted_bodies: triangles.iter().filter(|[kept, _]| *kept == 0).count(),
+        volume,
     }
 }
 

@@ -14,15 +14,21 @@ use glam::DMat4;
 
 pub use place::{FitError, Placed, place_on_bed};
 pub use range::{PRINT_RESOLUTION, RangeMeta, RangePlan, RangeResult, Share};
-pub use report::{FilamentReport, ModelReport, Report, Timing, Warning};
+pub use report::{AdhesionReport, FilamentReport, ModelReport, Report, Timing, Warning};
 
+use crate::adhesion::{
+    AdhesionError, AdhesionKind, AdhesionWarning, FirstLayer, Foundation, RaftLayer, lay_foundation,
+};
 use crate::gcode::{FileNotes, GcodeError, Joined, LayerSummary, format_duration, join};
 use crate::mesh::LoadedModel;
 use crate::mesh::Mesh;
+use crate::polygon::measure::Bounds;
+use crate::polygon::{DVec2, PolygonSet};
 use crate::region::Path;
+use crate::region::first_layer::draw_in;
 use crate::settings::Settings;
-use crate::slice::LayerSpec;
 use crate::slice::heights::plan_layers;
+use crate::slice::{Axis, LayerSpec, slice_mesh};
 
 /// Milliseconds since some fixed moment; the core has no clock of its own.
 pub type Clock<'a> = &'a dyn Fn() -> f64;
@@ -43,6 +49,8 @@ pub enum JobError {
     Fit(FitError),
     /// Nothing to print: no model, or no model with a volume.
     Empty,
+    /// Settings under `adhesion` that contradict each other.
+    Adhesion(AdhesionError),
     /// A start or end code of the settings cannot be used.
     Gcode(GcodeError),
     /// [`Job::finish`] was called before this layer was added: a bug of the caller.
@@ -57,6 +65,7 @@ impl fmt::Display for JobError {
         match self {
             JobError::Fit(error) => error.fmt(f),
             JobError::Empty => write!(f, "there is nothing to print"),
+            JobError::Adhesion(error) => error.fmt(f),
             JobError::Gcode(error) => error.fmt(f),
             JobError::LayerMissing { index } => write!(f, "layer {index} was never worked"),
         }
@@ -76,6 +85,7 @@ pub struct Job {
     specs: Vec<LayerSpec>,
     placements: Vec<DMat4>,
     foundation: Vec<Vec<Path>>,
+    adhesion: AdhesionReport,
     /// What is known of each layer so far.
     layers: Vec<Option<LayerSummary>>,
     warnings: Vec<Warning>,
@@ -105,6 +115,7 @@ impl Job {
             layers: vec![None; specs.len()],
             warnings: model_warnings(models),
             foundation: Vec::new(),
+            adhesion: AdhesionReport::default(),
             timing: Timing::default(),
             settings,
             mesh,
@@ -114,7 +125,7 @@ impl Job {
         })
     }
 
-    /// Number of layers.
+    /// Number of layers; known after [`Job::prepare`].
     pub fn layer_count(&self) -> usize {
         self.specs.len()
     }
@@ -139,11 +150,60 @@ impl Job {
         self.timing.parse += ms;
     }
 
-    /// Works out what all layers share. To be called once, before any range.
+    /// Works out what all layers share. To be called once, before any range; a raft adds layers.
     pub fn prepare(&mut self, clock: Clock) -> Result<(), JobError> {
         let started = clock();
+        let foundation = self.lay_foundation()?;
+        let kind = self.settings.adhesion.kind;
+        self.adhesion = AdhesionReport::new(kind, &foundation.figures, clock() - started);
         self.timing.adhesion = clock() - started;
+        self.warnings.extend(foundation.warnings.iter().map(adhesion_warning));
+        if foundation.raft.is_empty() {
+            self.foundation = foundation.layers;
+        } else {
+            self.raise_on(foundation);
+        }
+        self.layers = vec![None; self.specs.len()];
         Ok(())
+    }
+
+    /// What is laid around or below the part's first layer.
+    fn lay_foundation(&self) -> Result<Foundation, JobError> {
+        let Settings { adhesion, first_layer, layers, printer, .. } = &self.settings;
+        let bottom = slice_mesh(&self.mesh, Axis::Z, &[self.specs[0].slice_z], PRINT_RESOLUTION);
+        let section = bottom.into_iter().next().unwrap_or_default().area;
+        // On a raft nothing is squeezed against the bed.
+        let outline =
+            if adhesion.kind == AdhesionKind::Raft { section } else { draw_in(&section, first_layer) };
+        let first = FirstLayer {
+            outline: &outline,
+            supports: &PolygonSet::EMPTY,
+            bed: Bounds { min: DVec2::ZERO, max: DVec2::from_array(printer.bed_size) },
+            line_width: first_layer.line_width,
+            height: layers.first_height,
+            next_height: layers.height,
+        };
+        lay_foundation(&first, adhesion).map_err(JobError::Adhesion)
+    }
+
+    /// Puts the raft's layers below the part's.
+    fn raise_on(&mut self, foundation: Foundation) {
+        let count = foundation.raft.len() as u32;
+        let raise = |spec: &LayerSpec| LayerSpec {
+            index: spec.index + count,
+            print_z: spec.print_z + foundation.lift,
+            ..*spec
+        };
+        let raised: Vec<LayerSpec> = self.specs.iter().map(raise).collect();
+        let mut print_z = 0.0;
+        let mut spec_of = |(index, layer): (u32, &RaftLayer)| {
+            print_z += layer.height;
+            // Cut below the part, where nothing is met.
+            LayerSpec { index, slice_z: f64::from(index) - f64::from(count), print_z, height: layer.height }
+        };
+        self.specs = (0..).zip(&foundation.raft).map(&mut spec_of).collect();
+        self.specs.extend(raised);
+        self.foundation = foundation.raft.into_iter().map(|layer| layer.paths).collect();
     }
 
     /// The layers `first..last` as a piece of work for another engine.
@@ -233,6 +293,7 @@ impl Job {
             },
             time_s: totals.time_s,
             by_role: totals.by_role.clone(),
+            adhesion: self.adhesion.timed(&totals.by_role),
             timing_ms: self.timing,
             warnings: self.warnings.clone(),
         }
@@ -269,4 +330,9 @@ fn model_warnings(models: &[NamedModel]) -> Vec<Warning> {
         found.map(named).collect::<Vec<_>>()
     };
     models.iter().flat_map(of_model).collect()
+}
+
+fn adhesion_warning(found: &AdhesionWarning) -> Warning {
+    let at = found.at.map(|p| p.to_array());
+    Warning { code: found.code.name().to_owned(), message: found.message.clone(), layer: Some(0), at }
 }

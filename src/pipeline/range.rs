@@ -9,7 +9,7 @@ use crate::gcode::{LayerInput, LayerSummary, layer_gcode};
 use crate::mesh::Mesh;
 use crate::polygon::PolygonSet;
 use crate::region::first_layer::draw_in;
-use crate::region::shell::{Exposure, Shells, divide, exposure};
+use crate::region::shell::{Exposure, Shells, divide, exposure, hair_of_walls};
 use crate::region::{Path, Role};
 use crate::settings::Settings;
 use crate::slice::{Axis, LayerSpec, Section, slice_triangles};
@@ -110,8 +110,9 @@ pub(super) fn slice_range(
     let exposed = clock();
     result.meta.timing.slice = sliced - started;
     result.meta.timing.regions = exposed - sliced;
-    for place in plan.first..plan.last {
-        let paths = lay_paths(plan, place, &areas[place], &exposures, &mut result.meta, clock);
+    let printed = areas.iter().enumerate().take(plan.last).skip(plan.first);
+    for (place, area) in printed {
+        let paths = lay_paths(plan, place, area, &exposures, &mut result.meta, clock);
         let before = clock();
         let spec = &plan.specs[place];
         let input = LayerInput {
@@ -148,10 +149,13 @@ fn gap_warnings(plan: &RangePlan, sections: &[Section]) -> Vec<Warning> {
 /// Bare tops and bottoms of every layer that has its neighbours at hand.
 fn expose(plan: &RangePlan, areas: &[PolygonSet]) -> Vec<Exposure> {
     let SkinNeighbours { above, below } = SkinNeighbours::of(&plan.settings);
+    let walls = &plan.settings.walls;
+    let thickness = walls.width * f64::from(walls.count);
+    let hair = hair_of_walls(thickness, above.max(below) as u32).min(walls.width / 2.0);
     let low = plan.first.saturating_sub(below.saturating_sub(1));
     let high = (plan.last + above.saturating_sub(1)).min(areas.len());
     let expose_at = |i: usize| match (low..high).contains(&i) {
-        true => exposure(i.checked_sub(1).map(|b| &areas[b]), &areas[i], areas.get(i + 1)),
+        true => exposure(i.checked_sub(1).map(|b| &areas[b]), &areas[i], areas.get(i + 1), hair),
         false => Exposure::default(),
     };
     (0..areas.len()).map(expose_at).collect()
@@ -182,6 +186,7 @@ fn lay_paths(
     let started = clock();
     let (settings, spec) = (&plan.settings, &plan.specs[place]);
     let is_first = spec.index == 0;
+    // On a raft layer 0 holds nothing of the part, and its area is empty.
     let outline = if is_first { draw_in(area, &settings.first_layer) } else { area.clone() };
     let width = if is_first { settings.first_layer.line_width } else { settings.walls.width };
     let bead = Bead { width, height: spec.height };

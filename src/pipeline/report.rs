@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::adhesion::{AdhesionFigures, AdhesionKind};
 use crate::gcode::RoleUse;
 use crate::polygon::DVec2;
 use crate::region::Role;
@@ -95,6 +96,35 @@ pub struct FilamentReport {
     pub cost: f64,
 }
 
+/// What holds the part on the bed.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct AdhesionReport {
+    /// Skirt, brim, raft, teeth or none.
+    pub kind: AdhesionKind,
+    /// Time to work it out, ms.
+    pub slicing_ms: f64,
+    /// Time to print it, travels left out, s.
+    pub time_s: f64,
+    /// Material, bed contact, attachment and teeth.
+    #[serde(flatten)]
+    pub figures: AdhesionFigures,
+}
+
+impl AdhesionReport {
+    /// Before the G-code is planned: without the time to print.
+    pub fn new(kind: AdhesionKind, figures: &AdhesionFigures, slicing_ms: f64) -> AdhesionReport {
+        AdhesionReport { kind, slicing_ms, time_s: 0.0, figures: *figures }
+    }
+
+    /// With the time that the adhesion roles take.
+    pub fn timed(&self, by_role: &BTreeMap<Role, RoleUse>) -> AdhesionReport {
+        let roles = [Role::Skirt, Role::Brim, Role::Teeth, Role::Raft];
+        let time_s = roles.iter().filter_map(|r| by_role.get(r)).map(|used| used.time_s).sum();
+        AdhesionReport { time_s, ..*self }
+    }
+}
+
 /// Figures of a finished job.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -116,6 +146,8 @@ pub struct Report {
     pub time_s: f64,
     /// Beads by role.
     pub by_role: BTreeMap<Role, RoleUse>,
+    /// What holds the part on the bed.
+    pub adhesion: AdhesionReport,
     /// Where the time of the computation went.
     pub timing_ms: Timing,
     /// Remarks, those on the whole job first, then by layer.

@@ -13,7 +13,7 @@ crate::options! {
     }
 }
 
-/// What of a layer's area lies bare.
+/// What of a layer's area lies bare, hair lines along its outline left out.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Exposure {
     /// Not covered by the next layer.
@@ -23,12 +23,33 @@ pub struct Exposure {
 }
 
 /// Compares a layer's area with its neighbours'; `None` is open air or the bed.
-pub fn exposure(below: Option<&PolygonSet>, area: &PolygonSet, above: Option<&PolygonSet>) -> Exposure {
+///
+/// Strips narrower than `2 * hair` mm are passed over. On a steep slope every layer has such a strip
+/// along its whole outline, and the walls cover it on this layer and on those below; see
+/// [`hair_of_walls`].
+pub fn exposure(
+    below: Option<&PolygonSet>,
+    area: &PolygonSet,
+    above: Option<&PolygonSet>,
+    hair: f64,
+) -> Exposure {
+    let differs = |n: Option<&PolygonSet>| n.is_some_and(|n| n != area);
+    let core = match differs(below) || differs(above) {
+        true => area.offset(-hair, Join::WALL),
+        false => PolygonSet::EMPTY,
+    };
     let bare = |neighbour: Option<&PolygonSet>| match neighbour {
-        Some(n) => area.difference(n),
         None => area.clone(),
+        Some(same) if same == area => PolygonSet::EMPTY,
+        Some(other) => core.difference(other).offset(hair, Join::WALL),
     };
     Exposure { top: bare(above), bottom: bare(below) }
+}
+
+/// Half the width of strips that may be passed over under walls `thickness` mm thick and skins of
+/// up to `layers` layers: as many strips side by side still lie within the walls.
+pub fn hair_of_walls(thickness: f64, layers: u32) -> f64 {
+    thickness / f64::from(2 * layers.max(1))
 }
 
 /// The exposures that decide about one layer's fill.
@@ -77,8 +98,8 @@ mod tests {
     #[test]
     fn a_step_is_top_skin_and_the_layer_below_it_is_solid() {
         let (large, small) = (square(20.0), square(10.0));
-        let step = exposure(Some(&large), &large, Some(&small));
-        assert!((step.top.area() - 300.0).abs() < 1e-6);
+        let step = exposure(Some(&large), &large, Some(&small), 0.1);
+        assert!((step.top.area() - 300.0).abs() < 3.0);
         assert!(step.bottom.is_empty());
 
         let at_step = divide(&large, &Shells { tops: &[&step.top], bottoms: &[] }, 0.4, false);
@@ -89,6 +110,13 @@ mod tests {
         let below = divide(&large, &Shells { tops: &[&none, &step.top], bottoms: &[] }, 0.4, false);
         let roles: Vec<(Role, f64)> = below.iter().map(|r| (r.role, r.area.area().round())).collect();
         assert_eq!(roles, [(Role::Infill, 100.0), (Role::SolidInfill, 300.0)]);
+    }
+
+    #[test]
+    fn the_strip_of_a_steep_slope_is_no_skin_and_that_of_a_flat_one_is() {
+        let rim = |width: f64| exposure(None, &square(20.0), Some(&square(20.0 - width)), 0.1).top;
+        assert!(rim(0.19).is_empty());
+        assert!((rim(1.0).area() - (400.0 - 19.0 * 19.0)).abs() < 3.0);
     }
 
     #[test]

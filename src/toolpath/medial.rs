@@ -4,15 +4,15 @@
 //! between walls. The centre line is the medial axis, the width twice the distance to the border.
 //! The steps:
 //!
-//! 1. [`border`]: the outline with points every [`STEP_MM`] at least, and its constrained Delaunay
+//! 1. `border`: the outline with points every `STEP_MM` at least, and its constrained Delaunay
 //!    triangulation (crate `spade`).
-//! 2. [`axis`]: the chordal axis [Prasad 1997, "Morphological analysis of shapes"]: triangles with
+//! 2. `axis`: the chordal axis [Prasad 1997, "Morphological analysis of shapes"]: triangles with
 //!    two inner edges are links of a branch, with three junctions, with one ends. The middles of the
 //!    inner edges are moved onto the true medial axis (equal distance to both sides), so that the
 //!    triangulation gives only the order and not the accuracy.
-//! 3. [`chains`]: spurs into corners go, and at each junction the straightest and longest two
+//! 3. `chains`: spurs into corners go, and at each junction the straightest and longest two
 //!    branches become one line.
-//! 4. [`bead`]: ends carried to the border, widths clamped, few points.
+//! 4. `bead`: ends carried to the border, widths clamped, few points.
 //!
 //! Variable-width beads along the medial axis as in [Kuipers, Doubrovski, Wu, Wang 2020, "A framework
 //! for adaptive width control of dense contour-parallel toolpaths"], with one bead instead of many:
@@ -31,8 +31,11 @@ use crate::region::{Path, Role};
 /// closer points make more triangles and no better line, wider ones miss turns of the axis.
 const STEP_MM: f64 = 0.4;
 
-/// An outline whose edges cross after rounding is simplified by these and tried again, mm.
-const RETRY_TOLERANCES_MM: [f64; 2] = [0.002, 0.02];
+/// An outline whose edges cross is simplified by this and tried again, mm.
+const RETRY_TOLERANCE_MM: f64 = 0.002;
+
+/// If they cross still, needles thinner than twice this are cut off, mm.
+const RETRY_OPENING_MM: f64 = 0.005;
 
 /// How thin areas are filled.
 #[derive(Debug, Clone, PartialEq)]
@@ -109,8 +112,10 @@ fn fill_island(island: &Polygon, options: &ThinFill, beads: &mut ThinBeads) {
         return fill_triangles(&triangles, options, beads);
     }
     let set = island.clone().into_set();
-    let retry = |tolerance: &f64| border::triangulate(&set.simplified(*tolerance).islands(), STEP_MM);
-    match RETRY_TOLERANCES_MM.iter().find_map(retry) {
+    let retry = |set: PolygonSet| border::triangulate(&set.islands(), STEP_MM);
+    let triangles = retry(set.simplified(RETRY_TOLERANCE_MM))
+        .or_else(|| retry(set.opened(RETRY_OPENING_MM, Join::WALL).simplified(RETRY_TOLERANCE_MM)));
+    match triangles {
         Some(triangles) => fill_triangles(&triangles, options, beads),
         None => follow_outline(&set, options, beads),
     }

@@ -2,8 +2,8 @@
 
 use std::fmt::Display;
 
-use js_sys::{Date, Error};
-use wasm_bindgen::JsValue;
+use js_sys::Error;
+use wasm_bindgen::prelude::*;
 
 use crate::mesh::StlError;
 use crate::pipeline::JobError;
@@ -50,7 +50,7 @@ pub(super) fn job_error(cause: JobError) -> Thrown {
     let name = match cause {
         JobError::Fit(_) => "FitError",
         JobError::Empty => "ModelError",
-        JobError::Gcode(_) => "SettingsError",
+        JobError::Gcode(_) | JobError::Adhesion(_) => "SettingsError",
         JobError::LayerMissing { .. } => "InternalError",
     };
     thrown(name, cause)
@@ -61,7 +61,9 @@ pub(super) fn settings_from(json: &str) -> Result<Settings, Thrown> {
     Settings::resolve([json], []).map_err(settings_error)
 }
 
-/// The engine's clock, ms.
-pub(super) fn now() -> f64 {
-    Date::now()
+#[wasm_bindgen]
+extern "C" {
+    /// The engine's clock, ms; windows, workers and Node have it.
+    #[wasm_bindgen(js_namespace = performance)]
+    pub(super) fn now() -> f64;
 }

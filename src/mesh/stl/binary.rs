@@ -93,7 +93,7 @@ fn check_size(count: u32, bytes: u64) -> Result<(), StlError> {
     if found >= u64::from(count) {
         return Ok(());
     }
-    Err(StlError::Truncated { expected: count, found, partial: bytes % RECORD_BYTES as u64 > 0 })
+    Err(StlError::Truncated { expected: count, found, partial: !bytes.is_multiple_of(RECORD_BYTES as u64) })
 }
 
 /// The three corners of a record; normal and attributes are skipped.

@@ -60,9 +60,9 @@ fn ended(mut line: Vec<Sample>, ends: [End; 2], triangles: &Triangles, options: 
                 let outward = -direction(&line, true);
                 carry_to_border(&mut line, outward, triangles, options);
             }
-            End::Junction => {
+            End::Junction { slant } => {
                 let width = line.last().map_or(0.0, |s| bead_width(s, options));
-                trim(&mut line, width / 2.0);
+                trim(&mut line, slant * width / 2.0);
             }
         }
         // The start is the end of the reversed line.

@@ -1,9 +1,10 @@
 //! The outline with extra points, and the triangles between its sides.
 
-use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
+use spade::handles::DirectedEdgeHandle;
+use spade::{CdtEdge, ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
 
 use crate::polygon::simplify::closest_on_segment;
-use crate::polygon::{Contour, DVec2, Polygon, by_x_then_y, snap};
+use crate::polygon::{Contour, DVec2, Polygon, by_x_then_y};
 
 /// No triangle, no vertex.
 pub(super) const NONE: u32 = u32::MAX;
@@ -106,51 +107,89 @@ impl HasPosition for Site {
 
 /// Triangulates the islands after adding points so that no edge is longer than `step` mm; `None`
 /// when edges cross.
-///
-/// Constraints are added one by one in the order of the outline: spade's bulk loader for them keeps
-/// some in a hash set, whose order would decide between equally good triangles.
 pub(super) fn triangulate(islands: &[Polygon], step: f64) -> Option<Triangles> {
     let contours = islands.iter().flat_map(|i| std::iter::once(&i.outer).chain(&i.holes));
     let dense: Vec<Vec<DVec2>> = contours.map(|c| densified(c, step)).collect();
     let (points, rings) = numbered(&dense);
-    let mut edges: Vec<[u32; 2]> = Vec::with_capacity(points.len());
-    let mut beside = vec![[NONE; 2]; points.len()];
-    let mut visits = vec![0_u32; points.len()];
-    for ring in &rings {
-        for (i, &from) in ring.iter().enumerate() {
-            let to = ring[(i + 1) % ring.len()];
-            edges.push([from, to]);
-            (beside[from as usize][1], beside[to as usize][0]) = (to, from);
-            visits[from as usize] += 1;
+    let outline = Outline::new(points.len(), &rings);
+    let spade = triangulated(&points, &outline.edges)?;
+    let (corners, across) = inside(&spade, &outline);
+    Some(Triangles { points, beside: outline.beside, edges: outline.edges, corners, across })
+}
+
+/// Which vertex follows which.
+struct Outline {
+    /// As in [`Triangles`].
+    edges: Vec<[u32; 2]>,
+    /// As in [`Triangles`].
+    beside: Vec<[u32; 2]>,
+}
+
+impl Outline {
+    fn new(points: usize, rings: &[Vec<u32>]) -> Outline {
+        let mut edges: Vec<[u32; 2]> = Vec::with_capacity(points);
+        let mut beside = vec![[NONE; 2]; points];
+        let mut visits = vec![0_u32; points];
+        for ring in rings {
+            for (i, &from) in ring.iter().enumerate() {
+                let to = ring[(i + 1) % ring.len()];
+                edges.push([from, to]);
+                (beside[from as usize][1], beside[to as usize][0]) = (to, from);
+                visits[from as usize] += 1;
+            }
+        }
+        for (links, _) in beside.iter_mut().zip(visits).filter(|(_, visits)| *visits > 1) {
+            *links = [NONE; 2];
+        }
+        edges.sort_unstable();
+        Outline { edges, beside }
+    }
+
+    /// Whether the outline runs from one vertex to the other.
+    fn has(&self, from: u32, to: u32) -> bool {
+        match self.beside[from as usize][1] {
+            NONE => self.edges.binary_search(&[from, to]).is_ok(),
+            next => next == to,
         }
     }
-    for (links, _) in beside.iter_mut().zip(&visits).filter(|(_, visits)| **visits > 1) {
-        *links = [NONE; 2];
-    }
+}
+
+type Spade = ConstrainedDelaunayTriangulation<Site>;
+
+/// A Delaunay triangulation with all `edges` in it; `None` if they cross.
+///
+/// Dense outlines mostly need no constraints, which are the slow part. They are added in the order
+/// of the edges: spade's bulk loader for them keeps some in a hash set, whose order would decide
+/// between equally good triangles.
+fn triangulated(points: &[DVec2], edges: &[[u32; 2]]) -> Option<Spade> {
     let sites = points.iter().zip(0..).map(|(&at, vertex)| Site { at, vertex }).collect();
-    let mut spade = ConstrainedDelaunayTriangulation::<Site>::bulk_load(sites).ok()?;
+    let mut spade = Spade::bulk_load(sites).ok()?;
     let mut handles = vec![None; points.len()];
     for vertex in spade.vertices() {
         handles[vertex.data().vertex as usize] = Some(vertex.fix());
     }
-    for &[from, to] in &edges {
-        if spade.try_add_constraint(handles[from as usize]?, handles[to as usize]?).is_empty()
-            && !spade.exists_constraint(handles[from as usize]?, handles[to as usize]?)
-        {
+    let ends = |&[from, to]: &[u32; 2]| handles[from as usize].zip(handles[to as usize]);
+    let is_there = |edge| ends(edge).is_some_and(|(f, t)| spade.get_edge_from_neighbors(f, t).is_some());
+    if edges.iter().all(is_there) {
+        return Some(spade);
+    }
+    for edge in edges {
+        let (from, to) = ends(edge)?;
+        if spade.try_add_constraint(from, to).is_empty() && !spade.exists_constraint(from, to) {
             return None;
         }
     }
-    edges.sort_unstable();
-    let (corners, across) = inside(&spade, &edges);
-    Some(Triangles { points, beside, edges, corners, across })
+    Some(spade)
 }
 
 /// The contour with each edge cut into equal pieces of at most `step` mm.
+///
+/// The new points stay off the grid: moved by half a step of it, the sides of a needle would cross.
 fn densified(contour: &Contour, step: f64) -> Vec<DVec2> {
     let mut points = Vec::with_capacity(contour.points.len());
     for (a, b) in contour.edges() {
         let pieces = (a.distance(b) / step).ceil().max(1.0);
-        points.extend((0..pieces as usize).map(|i| snap(a + (b - a) * (i as f64 / pieces))));
+        points.extend((0..pieces as usize).map(|i| a + (b - a) * (i as f64 / pieces)));
     }
     points.dedup();
     points
@@ -174,41 +213,42 @@ fn numbered(rings: &[Vec<DVec2>]) -> (Vec<DVec2>, Vec<Vec<u32>>) {
     (points, numbers)
 }
 
-/// The triangles that can be reached from the left of the outline without crossing it.
-fn inside(
-    spade: &ConstrainedDelaunayTriangulation<Site>,
-    edges: &[[u32; 2]],
-) -> (Vec<[u32; 3]>, Vec<[u32; 3]>) {
+/// The triangles that can be reached from the left of the outline without crossing it: their
+/// corners, and the triangles across their edges.
+fn inside(spade: &Spade, outline: &Outline) -> (Vec<[u32; 3]>, Vec<[u32; 3]>) {
+    let ends =
+        |e: DirectedEdgeHandle<'_, Site, (), CdtEdge<()>, ()>| [e.from(), e.to()].map(|v| v.data().vertex);
+    let is_outline = |e: DirectedEdgeHandle<'_, Site, (), CdtEdge<()>, ()>| {
+        let [from, to] = ends(e);
+        e.is_constraint_edge() || outline.has(from, to) || outline.has(to, from)
+    };
     let mut number = vec![NONE; spade.num_all_faces()];
     let mut faces = Vec::new();
     for face in spade.inner_faces() {
-        let is_left = face.adjacent_edges().iter().any(|e| {
-            let ends = [e.from().data().vertex, e.to().data().vertex];
-            e.is_constraint_edge() && edges.binary_search(&ends).is_ok()
-        });
-        if is_left {
+        let is_left = |&e: &_| {
+            let [from, to] = ends(e);
+            outline.has(from, to)
+        };
+        if face.adjacent_edges().iter().any(is_left) {
             number[face.fix().index()] = faces.len() as u32;
             faces.push(face);
         }
     }
-    let mut next = 0;
-    while let Some(face) = faces.get(next).copied() {
-        next += 1;
-        for edge in face.adjacent_edges().iter().filter(|e| !e.is_constraint_edge()) {
-            if let Some(other) = edge.rev().face().as_inner()
-                && number[other.fix().index()] == NONE
-            {
-                number[other.fix().index()] = faces.len() as u32;
-                faces.push(other);
+    let mut corners = Vec::with_capacity(faces.len());
+    let mut across = Vec::with_capacity(faces.len());
+    while let Some(face) = faces.get(corners.len()).copied() {
+        corners.push(face.vertices().map(|v| v.data().vertex));
+        across.push(face.adjacent_edges().map(|edge| match edge.rev().face().as_inner() {
+            Some(other) if !is_outline(edge) => {
+                let known = &mut number[other.fix().index()];
+                if *known == NONE {
+                    *known = faces.len() as u32;
+                    faces.push(other);
+                }
+                *known
             }
-        }
-    }
-    let corners = faces.iter().map(|f| f.vertices().map(|v| v.data().vertex)).collect();
-    let across = faces.iter().map(|f| {
-        f.adjacent_edges().map(|e| match e.rev().face().as_inner() {
-            Some(other) if !e.is_constraint_edge() => number[other.fix().index()],
             _ => NONE,
-        })
-    });
-    (corners, across.collect())
+        }));
+    }
+    (corners, across)
 }

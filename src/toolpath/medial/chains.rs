@@ -21,13 +21,17 @@ const DIRECTION_AT: f64 = 2.0;
 /// the turn.
 const LENGTH_WEIGHT: f64 = 0.5;
 
+/// Largest slant at which a line meets another: at 30 degrees. Beyond, they rather run side by side.
+const MAX_SLANT: f64 = 2.0;
+
 /// How a line ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum End {
     /// At the end of a strip, whose outline is `tip` mm away where the axis meets it.
     Strip { tip: f64 },
-    /// In a junction, on the line that goes through it.
-    Junction,
+    /// In a junction, on the line that goes through it. `slant` is the way through half of that
+    /// line's bead, in halves of its width: 1 at right angles, more the more slanted.
+    Junction { slant: f64 },
 }
 
 /// A line of the axis to be filled by one bead.
@@ -52,14 +56,19 @@ pub(super) fn chains(axis: Axis) -> Vec<Chain> {
         branches = without_spurs(&nodes, joined(branches, &partners));
     }
     let branches = contracted(&nodes, branches);
-    let degrees: Vec<usize> = halves_of_nodes(nodes.len(), &branches).iter().map(Vec::len).collect();
+    let halves = halves_of_nodes(nodes.len(), &branches);
     let partners = partners(nodes.len(), &branches, straightest);
-    let end = |node: u32, last: Option<&Sample>| match (degrees[node as usize], last) {
-        (0 | 1, Some(&last)) => End::Strip { tip: tip(nodes[node as usize], last) },
-        _ => End::Junction,
+    let through: Vec<Vec<DVec2>> =
+        halves.iter().map(|h| through_directions(&branches, &partners, h)).collect();
+    let end = |node: u32, line: &[Sample], reversed: bool| match (
+        halves[node as usize].len(),
+        end_of(line, reversed),
+    ) {
+        (0 | 1, Some(last)) => End::Strip { tip: tip(nodes[node as usize], last) },
+        _ => End::Junction { slant: slant(&through[node as usize], line, reversed) },
     };
     let chain = |b: Branch| {
-        let ends = b.ends.map(|[first, last]| [end(first, b.line.first()), end(last, b.line.last())]);
+        let ends = b.ends.map(|[first, last]| [end(first, &b.line, false), end(last, &b.line, true)]);
         Chain { line: b.line, ends }
     };
     joined(branches, &partners).into_iter().map(chain).collect()
@@ -162,8 +171,12 @@ fn reach(nodes: &[Node], halves: &[Vec<Half>], branch: &Branch, half: Half, radi
     if halves[far].len() != 1 {
         return None;
     }
-    let last = if half.is_multiple_of(2) { branch.line.last() } else { branch.line.first() };
-    Some(length(&branch.line) + tip(nodes[far], *last?) - radius)
+    let last = end_of(&branch.line, half.is_multiple_of(2))?;
+    Some(length(&branch.line) + tip(nodes[far], last) - radius)
+}
+
+fn end_of(line: &[Sample], last: bool) -> Option<Sample> {
+    if last { line.last().copied() } else { line.first().copied() }
 }
 
 /// How far the outline is from the last point of a line that ends at `node`, mm.
@@ -221,6 +234,19 @@ fn straightest(branches: &[Branch], halves: &[Half]) -> Option<[Half; 2]> {
         }
     }
     best.map(|(_, pair)| pair)
+}
+
+/// The directions from a node along the line that goes through it.
+fn through_directions(branches: &[Branch], partners: &[Option<Half>], halves: &[Half]) -> Vec<DVec2> {
+    let through = halves.iter().filter(|&&h| partners[h].is_some());
+    through.map(|&h| direction(&branches[h / 2].line, h % 2 == 1)).collect()
+}
+
+/// [`End::Junction`]'s slant: one over the sine of the angle to the nearer side of the through line.
+fn slant(through: &[DVec2], line: &[Sample], reversed: bool) -> f64 {
+    let own = direction(line, reversed);
+    let nearer = through.iter().max_by(|a, b| a.dot(own).total_cmp(&b.dot(own)));
+    nearer.map_or(1.0, |d| 1.0 / d.perp_dot(own).abs().max(1.0 / MAX_SLANT))
 }
 
 /// Unit vector into a line from its start, or from its end if `reversed`; zero without length.
