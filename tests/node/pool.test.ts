@@ -121,5 +121,5 @@ test('a layer comes with the text that joins it to the one before', async () => 
   await pool.open(sources);
   const gcode = await pool.slice({ settings: '{}' });
   const layer = (k: number): string => Buffer.from(layerOf(gcode, k)).toString();
-  expect([layer(0), layer(7), layer(29)]).toEqual(['<layer 0\n', '|layer 7\n', '|layer 29\n']);
+  expect([layer(0), layer(7), layer(29)]).toEqual(['M83\n<layer 0\n', 'M83\n|layer 7\n', 'M83\n|layer 29\n']);
 });

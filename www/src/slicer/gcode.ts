@@ -18,14 +18,17 @@ export function partsOf({ layers, joined }: Gcode): Uint8Array<ArrayBuffer>[] {
   });
 }
 
-/** A layer as it stands in the file: from the joining text in front of it, which moves the head there, to its end. */
+/** Extrusion is relative: the file says so in its header, a layer read alone needs to hear it. */
+const RELATIVE = new TextEncoder().encode('M83\n');
+
+/** A layer to be read alone: from the joining text in front of it, which moves the head there, to its end. */
 export function layerOf(gcode: Gcode, layer: number): Uint8Array {
   const { pieces } = gcode.joined;
   const sources = pieces.filter((_, k) => k % 3 === 0);
   const first = sources.indexOf(layer + 1);
   const before = first > 0 && sources[first - 1] === 0 ? first - 1 : first;
   const parts = partsOf(gcode).slice(before, sources.lastIndexOf(layer + 1) + 1);
-  return joined(parts);
+  return joined([RELATIVE, ...parts]);
 }
 
 function joined(parts: readonly Uint8Array[]): Uint8Array {
