@@ -99,8 +99,7 @@ export class Session {
     const settings = await this.#pool.settings([asSettings(changes)], []);
     const gcode = await this.#pool.slice({ settings, signal, progress });
     const report = JSON.parse(gcode.joined.report) as Report;
-    const layer = Math.min(Math.floor(gcode.layers.length / 3), gcode.layers.length - 1);
-    return { job: { kind: 'done' }, result: { gcode, report, settings, changes }, show: 'layers', layer };
+    return { job: { kind: 'done' }, result: { gcode, report, settings, changes }, show: 'layers', layer: 0 };
   }
 }
 

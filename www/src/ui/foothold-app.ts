@@ -2,7 +2,7 @@
 import { html, nothing, type TemplateResult } from 'lit';
 import settingsSchema from '../../../schema/settings.schema.json';
 import { en } from '../i18n/en.ts';
-import type { LegendEntry, PictureView } from '../messages.ts';
+import type { Bounds, LegendEntry, PictureView } from '../messages.ts';
 import type { Session } from '../session.ts';
 import { withChange } from '../settings/changes.ts';
 import type { Schema } from '../settings/fields.ts';
@@ -119,6 +119,7 @@ export class FootholdApp extends Part {
         .side=${side}
         .model=${this.state.model.kind === 'open' ? this.state.model : undefined}
         .job=${result}
+        .extent=${result && extentOf(result)}
         .layer=${this.#shown}
         .label=${this.#label()}
         @legend=${({ detail }: CustomEvent<readonly LegendEntry[]>) => this.store?.update({ legend: detail })}
@@ -176,6 +177,15 @@ export class FootholdApp extends Part {
   #layer({ detail }: CustomEvent<number>): void {
     this.session?.showLayer(detail);
   }
+}
+
+/** Room around the model for what is printed beside it, mm. */
+const MARGIN = 6;
+
+/** What the layers of a result cover on the bed. */
+function extentOf({ report }: Result): Bounds {
+  const [min, max] = report.model.bounds;
+  return [min[0] - MARGIN, min[1] - MARGIN, max[0] + MARGIN, max[1] + MARGIN];
 }
 
 function choice(label: string, chosen: boolean, choose: () => void, off = false): TemplateResult {

@@ -22,6 +22,7 @@ export class LayerView extends Part {
     model: { attribute: false },
     layer: { attribute: false },
     job: { attribute: false },
+    extent: { attribute: false },
     label: { attribute: false },
   };
   declare painter: Painter | undefined;
@@ -32,6 +33,8 @@ export class LayerView extends Part {
   declare layer: LayerText | undefined;
   /** Changes when another job's layers are shown: the camera then starts anew. */
   declare job: unknown;
+  /** What all layers together cover; the camera starts with it, so that it stands still from layer to layer. */
+  declare extent: Bounds | undefined;
   declare label: string;
 
   readonly #dark = matchMedia('(prefers-color-scheme: dark)');
@@ -39,6 +42,8 @@ export class LayerView extends Part {
   #size: Size = { width: 1, height: 1 };
   #pictured: (Shown & { side: PictureView }) | undefined;
   #layered: Shown | undefined;
+  /** The job whose layers the camera was set up for. */
+  #job: unknown;
   #adopted = false;
   #drawing = false;
   #again = false;
@@ -51,6 +56,7 @@ export class LayerView extends Part {
     this.model = undefined;
     this.layer = undefined;
     this.job = undefined;
+    this.extent = undefined;
     this.label = '';
   }
 
@@ -155,10 +161,8 @@ export class LayerView extends Part {
       this.#layered = { key: layer.text, bounds };
       this.tell<readonly LegendEntry[]>('legend', legend);
     }
-    await painter.paintLayer(this.#view('layers', this.#layered.bounds), this.#theme());
+    await painter.paintLayer(this.#view('layers', this.extent ?? this.#layered.bounds), this.#theme());
   }
-
-  #job: unknown;
 
   async #drawModel(painter: Painter): Promise<void> {
     const { model, side } = this;
