@@ -264,7 +264,7 @@ fn teeth_larger_than_the_part_are_told() {
 }
 
 fn laid_speck() -> Foundation {
-    lay(&rectangle(110.0, 110.0, 0.04, 0.04), &options(AdhesionKind::Teeth))
+    lay(&rectangle(110.0, 110.0, 0.03, 0.03), &options(AdhesionKind::Teeth))
 }
 
 #[test]

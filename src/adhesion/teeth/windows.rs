@@ -1,5 +1,6 @@
 //! Stretches of the rail on which a tooth can stand.
 
+use super::site::Base;
 use super::{Rail, Site};
 
 /// Distance of the samples that look for such stretches, mm.
@@ -25,9 +26,10 @@ pub(super) struct Window {
 }
 
 /// The windows of one rail, in order along it.
-pub(super) fn windows_of(site: &Site, index: usize, rail: &Rail) -> Vec<Window> {
+pub(super) fn windows_of(site: &Site, index: usize, rail: &Rail, base: Base) -> Vec<Window> {
+    let owner_at = |s: f64| site.tooth_at(rail, s, base).map(|(_, owner)| owner);
     let samples: Vec<(f64, Option<u32>)> =
-        sample_positions(rail).into_iter().map(|s| (s, owner_at(site, rail, s))).collect();
+        sample_positions(rail).into_iter().map(|s| (s, owner_at(s))).collect();
     let n = samples.len();
     let Some(first) = (0..n).find(|&i| samples[i].1 != samples[(i + n - 1) % n].1) else {
         let ring = |owner| Window {
@@ -54,7 +56,7 @@ pub(super) fn windows_of(site: &Site, index: usize, rail: &Rail) -> Vec<Window> 
             let before =
                 if k == 0 { samples[(first + n - 1) % n].0 - wrap(first, rail) } else { unrolled(k - 1).0 };
             let after = if end + 1 < n { unrolled(end + 1).0 } else { samples[first].0 + rail.length() };
-            let limit = |good, bad| last_good(site, rail, owner, good, bad);
+            let limit = |good, bad| last_good(|s| owner_at(s) == Some(owner), good, bad);
             windows.push(Window {
                 rail: index,
                 owner,
@@ -100,15 +102,11 @@ fn sample_positions(rail: &Rail) -> Vec<f64> {
     found
 }
 
-fn owner_at(site: &Site, rail: &Rail, s: f64) -> Option<u32> {
-    site.tooth_at(rail, s).map(|(_, owner)| owner)
-}
-
 /// Between a place where a tooth can stand and one where it cannot: nearly the last where it can.
-fn last_good(site: &Site, rail: &Rail, owner: u32, good: f64, bad: f64) -> f64 {
+fn last_good(can_stand: impl Fn(f64) -> bool, good: f64, bad: f64) -> f64 {
     let halved = |(good, bad): (f64, f64), _| {
         let middle = (good + bad) / 2.0;
-        if owner_at(site, rail, middle) == Some(owner) { (middle, bad) } else { (good, middle) }
+        if can_stand(middle) { (middle, bad) } else { (good, middle) }
     };
     (0..HALVINGS).fold((good, bad), halved).0
 }
