@@ -8,7 +8,7 @@ use crate::polygon::{DVec2, PolygonSet};
 
 /// How far a tip's depth may be from the bite asked for, mm: the promised 0.05 less what the
 /// simplified outline may be off.
-const DEPTH_TOLERANCE_MM: f64 = 0.04;
+const DEPTH_TOLERANCE_MM: f64 = 0.03;
 
 /// A tooth may be longer than asked by this share of the rail's distance: on the outer side of a turn
 /// of 30 degrees the mitred rail is 3.5 % farther away.
