@@ -7,7 +7,7 @@ mod picture;
 mod shapes;
 
 use foothold::adhesion::{AdhesionKind, BrimSide, Placement, compare, lay_foundation};
-use foothold::polygon::{Contour, DVec2, PolygonSet, dvec2};
+use foothold::polygon::{Contour, DVec2, Join, PolygonSet, dvec2};
 use shapes::*;
 
 const CASES: u64 = 1000;
@@ -31,20 +31,57 @@ impl Dice {
 
 #[test]
 fn guarantees_hold_on_random_outlines() {
+    assert_none_broken(broken_in);
+}
+
+#[test]
+fn paths_are_sound_with_random_settings_and_supports() {
+    assert_none_broken(broken_with_random_settings);
+}
+
+/// Runs the cases, or the one that FOOTHOLD_CASE names.
+fn assert_none_broken(broken_in: fn(u64) -> Option<String>) {
     let step = if std::env::var("FOOTHOLD_LONG").is_ok_and(|v| v == "1") { 1 } else { TENTH };
     let only: Option<u64> = std::env::var("FOOTHOLD_CASE").ok().and_then(|v| v.parse().ok());
-    let mut broken = Vec::new();
-    for case in (0..CASES).step_by(step).filter(|c| only.is_none_or(|o| o == *c)) {
-        if let Some(found) = broken_in(case) {
-            broken.push(format!("case {case}: {found}"));
-        }
-    }
+    let cases: Vec<u64> = only.map_or((0..CASES).step_by(step).collect(), |case| vec![case]);
+    let told = |case| broken_in(case).map(|found| format!("case {case}: {found}"));
+    let broken: Vec<String> = cases.into_iter().filter_map(told).collect();
     assert!(broken.is_empty(), "{} broken:\n{}", broken.len(), broken.join("\n"));
 }
 
-fn broken_in(case: u64) -> Option<String> {
+fn broken_with_random_settings(case: u64) -> Option<String> {
+    let mut dice = dice_of(case + CASES);
+    let outline = turned(&random_outline(&mut dice, case), dice.between(0.0, 6.3));
+    let corner = dvec2(dice.between(60.0, 150.0), dice.between(60.0, 150.0));
+    let grown = outline.offset(0.4, Join::WALL);
+    let supports = rectangle(corner.x, corner.y, dice.between(1.0, 30.0), 1.5).difference(&grown);
+    let mut settings = options(AdhesionKind::Teeth);
+    let teeth = &mut settings.teeth;
+    teeth.offset = dice.between(0.5, 6.0);
+    teeth.height = teeth.offset + dice.between(0.05, 3.0);
+    teeth.base = dice.between(0.3, 10.0);
+    teeth.pitch = teeth.base + dice.between(0.05, 10.0);
+    teeth.holes = case % 2 == 0;
+    teeth.tab = case % 3 == 0;
+    let mut first = first_layer(&outline, &supports);
+    // A bed that cuts through the rail, and sometimes through the part.
+    first.bed.max = dvec2(dice.between(120.0, 220.0), 220.0);
+    let laid = lay_foundation(&first, &settings).expect("valid settings");
+    let found = broken_path(&first, &settings, &laid);
+    if found.is_some() || std::env::var("FOOTHOLD_CASE").is_ok() {
+        picture::draw(&format!("random-settings-{case}"), &outline.union(&supports), &laid);
+    }
+    found
+}
+
+fn dice_of(case: u64) -> Dice {
     let mut dice = Dice(case.wrapping_mul(0x9E37_79B9_7F4A_7C15) + 1);
     (0..4).for_each(|_| drop(dice.between(0.0, 1.0)));
+    dice
+}
+
+fn broken_in(case: u64) -> Option<String> {
+    let mut dice = dice_of(case);
     let outline = turned(&random_outline(&mut dice, case), dice.between(0.0, 6.3));
     let mut settings = options(AdhesionKind::Teeth);
     settings.teeth.holes = case % 7 == 0;

@@ -61,15 +61,17 @@ const GRID_SLACK_MM: f64 = 2e-4;
 /// Open lines from pieces of a line; of a loop, pieces that end in the same point become one.
 fn joined(mut pieces: Vec<Vec<DVec2>>, closed: bool) -> Vec<Line> {
     while let Some((i, j)) = meeting(&pieces).filter(|_| closed) {
-        let mut tail = pieces.remove(j);
-        let head = &mut pieces[i];
-        if head.first() == tail.first() || head.first() == tail.last() {
-            head.reverse();
+        let (mut first, mut second) = (pieces[i].clone(), pieces.remove(j));
+        if first.first() == second.last() {
+            // The two sides of the loop's start: this order keeps their direction.
+            std::mem::swap(&mut first, &mut second);
+        } else if first.first() == second.first() {
+            first.reverse();
+        } else if first.last() == second.last() {
+            second.reverse();
         }
-        if head.last() != tail.first() {
-            tail.reverse();
-        }
-        head.extend(tail.into_iter().skip(1));
+        first.extend(second.into_iter().skip(1));
+        pieces[i] = first;
     }
     pieces.into_iter().map(|points| Line { points, closed: false }).collect()
 }
