@@ -61,8 +61,8 @@ fn broken_with_random_settings(case: u64) -> Option<String> {
     teeth.height = teeth.offset + dice.between(0.05, 3.0);
     teeth.base = dice.between(0.3, 10.0);
     teeth.pitch = teeth.base + dice.between(0.05, 10.0);
-    teeth.holes = case % 2 == 0;
-    teeth.tab = case % 3 == 0;
+    teeth.holes = case.is_multiple_of(2);
+    teeth.tab = case.is_multiple_of(3);
     let mut first = first_layer(&outline, &supports);
     // A bed that cuts through the rail, and sometimes through the part.
     first.bed.max = dvec2(dice.between(120.0, 220.0), 220.0);
@@ -84,10 +84,10 @@ fn broken_in(case: u64) -> Option<String> {
     let mut dice = dice_of(case);
     let outline = turned(&random_outline(&mut dice, case), dice.between(0.0, 6.3));
     let mut settings = options(AdhesionKind::Teeth);
-    settings.teeth.holes = case % 7 == 0;
-    settings.teeth.rail_lines = 1 + u32::from(case % 5 == 0);
+    settings.teeth.holes = case.is_multiple_of(7);
+    settings.teeth.rail_lines = 1 + u32::from(case.is_multiple_of(5));
     settings.brim.side = [BrimSide::Outer, BrimSide::Inner, BrimSide::Both][(case % 3) as usize];
-    settings.brim.ears = case % 4 == 0;
+    settings.brim.ears = case.is_multiple_of(4);
     let supports = PolygonSet::EMPTY;
     let first = first_layer(&outline, &supports);
     let laid = lay_foundation(&first, &settings).expect("valid settings");

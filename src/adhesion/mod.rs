@@ -14,6 +14,7 @@ mod figures;
 mod ground;
 pub mod options;
 mod raft;
+pub mod recommend;
 mod segments;
 mod skirt;
 pub mod teeth;
@@ -22,6 +23,7 @@ pub use error::{AdhesionError, AdhesionWarning, WarningCode};
 pub use options::{
     AdhesionKind, AdhesionOptions, BrimOptions, BrimSide, Placement, RaftOptions, SkirtOptions, TeethOptions,
 };
+pub use recommend::{Reason, Recommendation, Warping, recommend};
 pub use teeth::{TeethDrawing, Tooth};
 
 use ground::Ground;
