@@ -14,9 +14,9 @@ use crate::region::{Path, Role};
 /// fraction of a line counts as one.
 const CORNER_TOLERANCE_MM: f64 = 0.1;
 
-/// Each loop follows the one inside it, simplified by this, mm: a fortieth of a usual line, which
+/// Each loop follows the one inside it, simplified by this, mm: a twentieth of a usual line, which
 /// halves the time.
-const LOOP_TOLERANCE_MM: f64 = 0.01;
+const LOOP_TOLERANCE_MM: f64 = 0.02;
 
 /// Corners of an ear's round area.
 const EAR_CORNERS: u32 = 32;
