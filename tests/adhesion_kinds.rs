@@ -239,6 +239,16 @@ fn contradictions_name_the_setting() {
 }
 
 #[test]
+fn a_line_without_width_is_an_error_too() {
+    let part = rectangle(90.0, 90.0, 40.0, 30.0);
+    for line_width in [0.0, -0.4, f64::NAN] {
+        let first = FirstLayer { line_width, ..first_layer(&part, NONE) };
+        let error = lay_foundation(&first, &options(AdhesionKind::Teeth)).expect_err("no line").to_string();
+        assert!(error.starts_with("first_layer.line_width: "), "{error}");
+    }
+}
+
+#[test]
 fn contradictions_in_another_kind_do_not_matter() {
     let mut settings: AdhesionOptions = options(AdhesionKind::Skirt);
     settings.teeth.base = 9.0;
