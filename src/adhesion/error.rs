@@ -74,6 +74,22 @@ pub enum WarningCode {
     NoEars,
 }
 
+impl WarningCode {
+    /// The word of the report.
+    pub const fn name(self) -> &'static str {
+        match self {
+            WarningCode::OutlineOffBed => "outline_off_bed",
+            WarningCode::AdhesionOffBed => "adhesion_off_bed",
+            WarningCode::IslandWithoutTeeth => "island_without_teeth",
+            WarningCode::TeethLeftOut => "teeth_left_out",
+            WarningCode::TeethShallow => "teeth_shallow",
+            WarningCode::RailTouchesPart => "rail_touches_part",
+            WarningCode::NoRoomForTab => "no_room_for_tab",
+            WarningCode::NoEars => "no_ears",
+        }
+    }
+}
+
 /// Something that was laid otherwise than asked.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct AdhesionWarning {

@@ -79,6 +79,7 @@ pub struct RaftLayer {
 
 /// The figures of `adhesion` in the report (time is known after the G-code is planned).
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AdhesionFigures {
     /// Volume of all beads, mm3.
     pub filament_mm3: f64,
@@ -94,6 +95,7 @@ pub struct AdhesionFigures {
 
 /// How many teeth there are and how deep they bite.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TeethFigures {
     /// Teeth that are printed.
     pub placed: u32,
