@@ -26,17 +26,9 @@ fn disc(radius: f64, corners: usize) -> PolygonSet {
     area(&(0..corners).map(corner).collect::<Vec<_>>())
 }
 
-/// Area of the beads with square ends up to the end of the strip.
-fn plastic(beads: &ThinBeads, options: &ThinFill) -> f64 {
-    let one = |path: &Path| {
-        let n = path.points.len();
-        let edges = (0..if path.closed { n } else { n - 1 }).map(|i| (i, (i + 1) % n));
-        let mean = |i: usize, j: usize| (path.width.at(i) + path.width.at(j)) / 2.0;
-        let body: f64 = edges.map(|(i, j)| path.points[i].distance(path.points[j]) * mean(i, j)).sum();
-        let caps = path.width.at(0).powi(2) + path.width.at(n - 1).powi(2);
-        body + if path.closed { 0.0 } else { options.end_inset * caps }
-    };
-    beads.paths.iter().map(one).sum()
+/// What is extruded, as an area: lengths of the lines times their widths.
+fn plastic(beads: &ThinBeads) -> f64 {
+    beads.paths.iter().map(Path::area).sum()
 }
 
 /// What holds for any input: finite points, widths in range, canonical order, no fallback.
@@ -70,7 +62,8 @@ fn a_strip_is_one_straight_bead_of_its_width() {
         let beads = fill(&PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(20.0, width)));
         let [path] = &beads.paths[..] else { panic!("{width}: {} paths", beads.paths.len()) };
         let Width::Uniform(found) = path.width else { panic!("{width}: varying") };
-        assert!((found - width).abs() < 2e-4, "{found}");
+        // Up to 2 % wider: the plastic for the ends, which the line does not reach.
+        assert!((width - 2e-4..width * 1.02).contains(&found), "{found}");
         let inset = PI / 8.0 * width;
         assert_eq!(path.points, [snap(dvec2(inset, width / 2.0)), snap(dvec2(20.0 - inset, width / 2.0))]);
         assert_eq!(beads.left_mm2, 0.0);
@@ -84,7 +77,7 @@ fn a_turned_strip_keeps_its_length_and_width() {
         let [Path { width: Width::Uniform(width), .. }] = beads.paths[..] else {
             panic!("{:?}", beads.paths)
         };
-        assert!((width - 0.45).abs() < 5e-4);
+        assert!((0.45 - 5e-4..0.45 * 1.03).contains(&width), "{width}");
         let expected = dvec2(x, y).length() - 0.45 * PI / 4.0;
         assert!((beads.paths[0].length() - expected).abs() < 2e-3);
     }
@@ -114,7 +107,7 @@ fn a_frame_is_one_closed_bead() {
     let frame = outer.difference(&PolygonSet::rectangle(dvec2(0.6, 0.6), dvec2(9.4, 5.4)));
     let beads = fill(&frame);
     assert!(beads.paths.len() == 1 && beads.paths[0].closed);
-    assert!((plastic(&beads, &ThinFill::default()) / frame.area() - 1.0).abs() < 0.01);
+    assert!((plastic(&beads) / frame.area() - 1.0).abs() < 0.01);
 }
 
 #[test]
@@ -128,7 +121,7 @@ fn a_wedge_varies_with_its_thickness() {
         let inner = (0.8..19.2).contains(&p.x);
         assert!(!inner || (path.width.at(i) - (0.2 + 0.03 * p.x)).abs() < 0.02, "{p}: {}", path.width.at(i));
     }
-    assert!((plastic(&beads, &ThinFill::default()) / wedge.area() - 1.0).abs() < 0.02);
+    assert!((plastic(&beads) / wedge.area() - 1.0).abs() < 0.02);
 }
 
 #[test]
@@ -153,7 +146,7 @@ fn at_a_t_the_bar_goes_through_and_the_stem_ends_at_it() {
     assert!(stem.points.iter().all(|p| (p.x - 5.0).abs() < 0.01));
     let top = stem.points.iter().map(|p| p.y).fold(f64::MIN, f64::max);
     assert!((top - (0.25 - 0.625)).abs() < 0.01, "{top}");
-    assert!((plastic(&beads, &ThinFill::default()) / shape.area() - 1.0).abs() < 0.02);
+    assert!((plastic(&beads) / shape.area() - 1.0).abs() < 0.02);
 }
 
 #[test]
@@ -179,7 +172,10 @@ fn a_strip_too_wide_is_clamped_and_reported() {
 fn small_posts_stay_and_specks_go() {
     let post = |size: f64| fill(&PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(size, size)));
     assert_eq!(post(0.6).paths.len(), 1);
-    assert!((plastic(&post(0.6), &ThinFill::default()) - 0.36).abs() < 0.01);
+    // A dash with round ends covers the post.
+    let dash = &post(0.6).paths[0];
+    let covered = dash.area() + PI / 4.0 * dash.width.at(0).powi(2);
+    assert!((covered / 0.36 - 1.0).abs() < 0.15, "{covered}");
     assert_eq!(post(0.3).paths, []);
     assert!(post(0.3).left_mm2 > 0.0);
     assert_eq!(fill(&PolygonSet::EMPTY), ThinBeads::default());
@@ -201,7 +197,7 @@ fn a_comb_has_a_bead_per_tooth() {
     let beads = fill(&comb);
     // The outermost tooth and the bar's stub beyond it may make one line.
     assert!((100..=101).contains(&beads.paths.len()), "{}", beads.paths.len());
-    assert!((plastic(&beads, &ThinFill::default()) / comb.area() - 1.0).abs() < 0.03);
+    assert!((plastic(&beads) / comb.area() - 1.0).abs() < 0.03);
 }
 
 #[test]
@@ -215,7 +211,7 @@ fn a_spiral_of_five_thousand_points_is_one_bead() {
     let spiral = area(&out.chain((0..2500).rev().map(|i| side(-0.25, i))).collect::<Vec<_>>());
     let beads = fill(&spiral);
     assert_eq!(beads.paths.len(), 1);
-    assert!((plastic(&beads, &ThinFill::default()) / spiral.area() - 1.0).abs() < 0.01);
+    assert!((plastic(&beads) / spiral.area() - 1.0).abs() < 0.01);
 }
 
 #[test]
@@ -227,7 +223,7 @@ fn contours_that_touch_give_a_result() {
         PolygonSet::rectangle(dvec2(2.4, 4.0), dvec2(6.0, 4.4)),
     ];
     let shape = PolygonSet::union_all(&touching);
-    assert!((plastic(&fill(&shape), &ThinFill::default()) / shape.area() - 1.0).abs() < 0.05);
+    assert!((plastic(&fill(&shape)) / shape.area() - 1.0).abs() < 0.05);
     let diamond = area(&[(0.5, 0.25), (5.0, 0.0), (9.5, 0.25), (5.0, 0.5)]);
     fill(&PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(10.0, 0.5)).difference(&diamond));
 }
@@ -286,7 +282,7 @@ proptest! {
         let beads = fill_thin(&shape, &options);
         assert_sane(&beads, &options);
         // Crossings at flat angles leave wide places; the rest is filled.
-        let filled = plastic(&beads, &options) / (shape.area() - beads.left_mm2).max(1e-9);
+        let filled = plastic(&beads) / (shape.area() - beads.left_mm2).max(1e-9);
         prop_assert!((0.85..1.15).contains(&filled), "{filled}");
         prop_assert_eq!(fill_thin(&shape, &options), beads);
     }

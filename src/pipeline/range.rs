@@ -218,10 +218,12 @@ fn lay_paths(
         }
     }
     parts.fills.extend(fill_thin(&walls.thin_outer, &ThinFill::for_nozzle(nozzle, Role::OuterWall)).paths);
+    // A bead between others overlaps them with its round sides, so it is wider than its gap.
+    let overlap = bead.overlap();
+    let options = ThinFill::for_nozzle(nozzle, Role::GapFill);
+    let options = ThinFill { min_width: options.min_width - overlap, ..options };
     for gap in gaps {
-        let beads = fill_thin(&gap, &ThinFill::for_nozzle(nozzle, Role::GapFill)).paths;
-        // Between other beads, so its round sides overlap theirs.
-        parts.fills.extend(beads.into_iter().map(|path| path.widened(bead.overlap())));
+        parts.fills.extend(fill_thin(&gap, &options).paths.into_iter().map(|path| path.widened(overlap)));
     }
     for (_, path) in &mut parts.walls {
         start_at_seam(&mut path.points, settings.seam.position);

@@ -47,6 +47,17 @@ impl Path {
         Path { role, points, closed: false, width: Width::Uniform(width) }
     }
 
+    /// Area that the bead covers, mm2: length times width, round ends left out.
+    pub fn area(&self) -> f64 {
+        let n = self.points.len();
+        let edges = if self.closed { n } else { n.saturating_sub(1) };
+        let of_edge = |i: usize| {
+            let next = (i + 1) % n;
+            self.points[i].distance(self.points[next]) * (self.width.at(i) + self.width.at(next)) / 2.0
+        };
+        (0..edges).map(of_edge).sum()
+    }
+
     /// The same line with a bead that is `by` mm wider everywhere.
     pub fn widened(mut self, by: f64) -> Path {
         match &mut self.width {

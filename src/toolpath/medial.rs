@@ -25,7 +25,7 @@ mod border;
 mod chains;
 
 use crate::polygon::{DVec2, Join, Polygon, PolygonSet, by_x_then_y};
-use crate::region::{Path, Role};
+use crate::region::{Path, Role, Width};
 
 /// Largest distance of neighbouring points on the triangulated outline, mm. About a bead's width:
 /// closer points make more triangles and no better line, wider ones miss turns of the axis.
@@ -97,10 +97,41 @@ pub struct ThinBeads {
 pub fn fill_thin(area: &PolygonSet, options: &ThinFill) -> ThinBeads {
     let mut beads = ThinBeads::default();
     for island in area.islands() {
-        fill_island(&island, options, &mut beads);
+        let mut found = ThinBeads::default();
+        fill_island(&island, options, &mut found);
+        fit_to_area(&mut found, island.area(), options);
+        beads.paths.append(&mut found.paths);
+        beads.left_mm2 += found.left_mm2;
+        beads.fallbacks.append(&mut found.fallbacks);
     }
     beads.paths.sort_by(|a, b| compare_points(&a.points, &b.points));
     beads
+}
+
+/// Widths may be changed by this share to make up for ends and corners that the lines do not reach,
+/// and for junctions where they overlap: 0.03 mm on a bead of 0.4 mm.
+const FIT_SHARE: f64 = 0.08;
+
+/// The plastic may differ from the area's by this share without any change of widths.
+const FIT_TOLERANCE: f64 = 0.02;
+
+/// Scales the widths so that the beads hold as much plastic as the area has room for, within
+/// [`FIT_TOLERANCE`].
+fn fit_to_area(beads: &mut ThinBeads, area: f64, options: &ThinFill) {
+    let laid: f64 = beads.paths.iter().map(Path::area).sum();
+    let wanted = (area - beads.left_mm2) / laid;
+    if !wanted.is_finite() {
+        return;
+    }
+    let needed = wanted / wanted.clamp(1.0 - FIT_TOLERANCE, 1.0 + FIT_TOLERANCE);
+    let share = needed.clamp(1.0 - FIT_SHARE, 1.0 + FIT_SHARE);
+    let fit = |w: &mut f64| *w = (*w * share).clamp(options.min_width, options.max_width);
+    for path in &mut beads.paths {
+        match &mut path.width {
+            Width::Uniform(width) => fit(width),
+            Width::Varying(widths) => widths.iter_mut().for_each(fit),
+        }
+    }
 }
 
 fn fill_island(island: &Polygon, options: &ThinFill, beads: &mut ThinBeads) {
