@@ -47,11 +47,15 @@ pub(super) fn numbered(number: u32, command: &str) -> Vec<u8> {
     wire
 }
 
+/// Bytes a command of this length takes on the wire at most.
+pub(super) fn longest_wire(number: u32, command: usize) -> usize {
+    let digits = number.checked_ilog10().unwrap_or(0) as usize + 1;
+    "N ".len() + digits + command + "*255\n".len()
+}
+
 /// Bytes left for a command in a line of `max_line` bytes (line feed included) with this number.
 pub(super) fn room_for_command(number: u32, max_line: usize) -> usize {
-    let digits = number.checked_ilog10().unwrap_or(0) as usize + 1;
-    let around = "N ".len() + digits + "*255\n".len();
-    max_line.saturating_sub(around)
+    max_line.saturating_sub(longest_wire(number, 0))
 }
 
 /// The command in a raw line: comment, blanks, and a number and checksum of its own taken off.

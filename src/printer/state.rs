@@ -52,7 +52,7 @@ pub enum Input {
     Closed,
     /// The handshake was answered.
     Greeted,
-    /// The printer paused by itself (`//action:paused`): no parking.
+    /// The printer paused by itself (`//action:paused`): no parking, unless we were half way back.
     Held,
     /// The lines of park, return or cool-down are done.
     ScriptDone,
@@ -141,7 +141,7 @@ pub const TABLE: &[(State, Input, State)] = &[
     (S::Paused, I::GaveUp, S::Offline),
     //
     (S::Returning, I::Pause, S::Parking),
-    (S::Returning, I::Held, S::Paused),
+    (S::Returning, I::Held, S::Parking),
     (S::Returning, I::Cancel, S::Cancelling),
     (S::Returning, I::EmergencyStop, S::Halted),
     (S::Returning, I::Line, S::Returning),
