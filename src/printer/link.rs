@@ -1,6 +1,7 @@
 //! What each reply does, and what goes out next.
 
 use super::job::Step;
+use super::line::may_take_long;
 use super::queue::{Acked, Origin, Resent, Window};
 use super::reply::{self, Action, OkReply, Reply};
 use super::{Event, Input, PauseReason, Printer, State, StopReason, Waiting};
@@ -157,10 +158,12 @@ impl Printer {
         }
     }
 
-    /// In a command that takes long, temperatures are the sign that it goes on.
+    /// A printer that waits for heat tells the temperature; one that reports it by itself tells
+    /// nothing by it.
     fn on_report(&mut self, line: &str) {
         self.tell_temperatures(line);
-        if self.queue.oldest().is_some_and(super::line::may_take_long) {
+        let waits = self.queue.oldest().is_some_and(may_take_long);
+        if waits && !self.firmware.autoreport_temperature {
             self.progress();
         }
     }

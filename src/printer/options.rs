@@ -16,12 +16,13 @@ pub struct PrinterOptions {
     pub resend_limit: u32,
     /// Silence before the first probe. Default 30 s.
     pub silence: Duration,
-    /// Silence before the first probe in commands that take long, from a printer that sends no
-    /// `busy`. Default 15 min.
+    /// Silence before the first probe in commands that take long (G28, G29, M109, M190, M400 and their
+    /// kin), from a printer that does not say `busy` in them. Default 5 min.
     pub long_silence: Duration,
     /// Time between probes. Default 10 s.
     pub probe_interval: Duration,
-    /// Unanswered probes that mean lost. Default 5; four times as many while anything else comes in.
+    /// Unanswered probes that mean lost. Default 5; four times as many while anything else comes in, and
+    /// four times as many in commands that take long.
     pub probe_misses: u32,
     /// How often temperatures are asked for or reported. Default 2 s; whole seconds for `M155`.
     pub temperature_interval: Duration,
@@ -62,7 +63,7 @@ impl Default for PrinterOptions {
             resend_wait: Duration::from_millis(500),
             resend_limit: 25,
             silence: Duration::from_secs(30),
-            long_silence: Duration::from_secs(15 * 60),
+            long_silence: Duration::from_secs(5 * 60),
             probe_interval: Duration::from_secs(10),
             probe_misses: 5,
             temperature_interval: Duration::from_secs(2),

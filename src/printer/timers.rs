@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::line::may_take_long;
+use super::line::{may_take_long, waits_for_heat};
 use super::{Closing, Input, Printer, State, StopReason, Waiting};
 
 /// After the first line of a banner the board is given this long before it is spoken to.
@@ -14,7 +14,8 @@ const REPORT_GAP: Duration = Duration::from_millis(250);
 /// How often the closing `M105` is sent before a plain `ok` is believed.
 const CLOSING_TRIES: u32 = 3;
 
-/// With a sign of life between the probes, this many times more are sent before the link is lost.
+/// While anything else comes in, and again in a command that takes long, this many times more probes are
+/// sent before the link is lost.
 const PATIENCE: u32 = 4;
 
 /// Deadlines and what silence is measured from.
@@ -36,8 +37,8 @@ pub(super) struct Timers {
     last_probe: Duration,
     /// Something came in since the last progress.
     heard: bool,
-    /// `busy` came for the line in flight: its silence means what it says.
-    busy: bool,
+    /// The printer sends `busy` when it is: its silence means what it says.
+    says_busy: bool,
     /// Bytes written since the last progress, and those in flight then.
     unanswered: usize,
 }
@@ -80,7 +81,7 @@ impl Printer {
 
     pub(super) fn busy(&mut self) {
         self.progress();
-        self.timers.busy = true;
+        self.timers.says_busy = true;
     }
 
     pub(super) fn heard(&mut self) {
@@ -90,7 +91,6 @@ impl Printer {
     /// A line was answered: the next one's silence counts anew.
     pub(super) fn answered(&mut self) {
         self.progress();
-        self.timers.busy = false;
         self.timers.doubt = None;
     }
 
@@ -102,7 +102,6 @@ impl Printer {
     pub(super) fn waits_from_now(&mut self) {
         if self.queue.in_flight() == 0 {
             self.progress();
-            self.timers.busy = false;
         }
     }
 
@@ -239,14 +238,15 @@ impl Printer {
         if t.probes > 0 {
             return Some(t.last_probe + o.probe_interval);
         }
-        let long = may_take_long(oldest) && !t.busy;
-        Some(t.progress + if long { o.long_silence } else { o.silence })
+        let tells = t.says_busy && !waits_for_heat(oldest);
+        Some(t.progress + if may_take_long(oldest) && !tells { o.long_silence } else { o.silence })
     }
 
     /// First a numbered `M105` behind the line in flight: the answer tells which of the two the printer
     /// has. Then the oldest line again, as far as the receive buffer has room, else a line feed.
     fn probe(&mut self) {
-        let patience = if self.timers.heard { PATIENCE } else { 1 };
+        let long = self.queue.oldest().is_some_and(may_take_long);
+        let patience = [self.timers.heard, long].iter().filter(|slow| **slow).fold(1, |p, _| p * PATIENCE);
         if self.timers.probes >= self.options.probe_misses * patience {
             self.stop(Input::GaveUp, StopReason::NoAnswer);
             return;
