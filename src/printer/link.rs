@@ -139,7 +139,10 @@ impl Printer {
     fn on_firmware(&mut self, line: &str) {
         self.firmware.name = reply::firmware_field(line, "FIRMWARE_NAME").unwrap_or_default();
         self.firmware.machine = reply::firmware_field(line, "MACHINE_TYPE");
-        if self.state != State::Connecting {
+        if self.state == State::Connecting {
+            // The answer to M115 shows that it was taken, and so that the count before it was.
+            self.greeting.number.into_iter().for_each(|number| self.queue.prove(number));
+        } else {
             self.tell(Event::Firmware(self.firmware.clone()));
         }
     }
@@ -197,6 +200,7 @@ impl Printer {
         }
         match self.waiting.front() {
             Some(Waiting::Renumber) => self.renumber(),
+            Some(Waiting::Proof) => self.prove() && self.counting_proved(),
             Some(Waiting::Line(command)) => {
                 let room = self.queue.has_room(self.window(), command.len());
                 let Some(Waiting::Line(command)) = self.waiting.pop_front_if(|_| room) else { return false };
@@ -214,8 +218,15 @@ impl Printer {
         self.waiting.pop_front();
         self.waits_from_now();
         self.queue.restart();
+        self.begin_proof();
         self.numbered = true;
         true
+    }
+
+    fn counting_proved(&mut self) -> bool {
+        self.timers.proof = None;
+        self.queue.prove(0);
+        self.waiting.pop_front().is_some()
     }
 
     /// Gives the line a number and sends it, whatever is in flight.
@@ -253,7 +264,7 @@ impl Printer {
             Step::Send { command, .. } if !self.queue.has_room(window, command.len()) => return false,
             Step::End => {
                 self.enter(Input::JobSent);
-                self.begin_closing();
+                self.begin_proof();
                 return true;
             }
             Step::Send { .. } | Step::Pause(_) | Step::Emergency { .. } | Step::Bad { .. } => {}
@@ -284,7 +295,7 @@ impl Printer {
             State::Parking => done && self.enter(Input::ScriptDone),
             State::Returning => sent && self.enter(Input::ScriptDone),
             State::Cancelling => done && self.cancelled(),
-            State::Finishing => self.settle_closing(),
+            State::Finishing => sent && self.prove() && self.finish(),
             State::Offline | State::Ready | State::Printing | State::Paused | State::Halted => false,
         }
     }
@@ -297,6 +308,7 @@ impl Printer {
         if self.firmware.autoreport_temperature {
             self.ask_for_reports();
         }
+        self.wait_with(["M105".to_owned()]);
         self.schedule_report();
         true
     }
@@ -319,7 +331,7 @@ impl Printer {
         self.journal = journal;
         self.numbered = false;
         self.job = None;
-        self.timers.closing = None;
+        self.timers.proof = None;
         self.tell(Event::Finished(journal));
         true
     }

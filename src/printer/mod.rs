@@ -101,7 +101,7 @@ pub struct Printer {
     parked: bool,
     /// Told when the cool-down is done.
     ending: StopReason,
-    closing: Closing,
+    proof: Proof,
     greeting: Greeting,
     firmware: Firmware,
     /// Lines in flight, as the printer allows.
@@ -117,15 +117,19 @@ pub struct Printer {
 enum Waiting {
     /// Count from 0 again, once everything is acknowledged.
     Renumber,
+    /// Nothing behind goes out before the printer has shown that it counts anew.
+    Proof,
     Line(String),
 }
 
-/// The proof at the end of a job.
+/// An `M105` whose answer proves that the printer has all lines before it.
 #[derive(Debug, Default)]
-struct Closing {
-    /// Number of the closing `M105`.
+struct Proof {
+    /// Number of the `M105` sent.
     number: Option<u32>,
     tries: u32,
+    /// Nothing proves it, and nothing speaks against it either.
+    believed: bool,
 }
 
 #[derive(Debug, Default)]
@@ -161,7 +165,7 @@ impl Printer {
             numbered: false,
             parked: false,
             ending: StopReason::Cancelled,
-            closing: Closing::default(),
+            proof: Proof::default(),
             greeting: Greeting::default(),
             firmware: Firmware::default(),
             window_lines: 1,
@@ -244,9 +248,7 @@ impl Printer {
         self.journal = job.journal_before(start.first_line);
         self.numbered = false;
         self.parked = false;
-        self.waiting.push_back(Waiting::Renumber);
-        // The answer to this M105 proves that the new numbering has arrived.
-        self.wait_with(["M105".to_owned()]);
+        self.waiting.extend([Waiting::Renumber, Waiting::Proof]);
         self.wait_with(prelude);
         if start.restore {
             let lines = RESTORE_LINES.map(str::to_owned);

@@ -29,9 +29,9 @@ pub struct PrinterOptions {
     /// How often `M105` checks the count of lines while a job runs and the printer reports
     /// temperatures by itself. Default 10 s.
     pub count_check_interval: Duration,
-    /// How long the end of a job waits for the answer to its closing `M105` before it asks again;
-    /// after three times a plain `ok` counts. Default 2 s.
-    pub closing_wait: Duration,
+    /// How long begin and end of a job wait for the answer to the `M105` that proves the count of lines,
+    /// before they ask again; after three times a plain `ok` counts. Default 2 s.
+    pub proof_wait: Duration,
     /// The firmware's receive buffer, bytes. Default 127: the 128 of an 8-bit board hold one less. Never
     /// more is in flight.
     pub receive_buffer: usize,
@@ -68,7 +68,7 @@ impl Default for PrinterOptions {
             probe_misses: 5,
             temperature_interval: Duration::from_secs(2),
             count_check_interval: Duration::from_secs(10),
-            closing_wait: Duration::from_secs(2),
+            proof_wait: Duration::from_secs(2),
             receive_buffer: 127,
             max_line: 96,
             max_in_flight: 8,

@@ -86,6 +86,9 @@ pub(super) struct Window {
     pub(super) bytes: usize,
 }
 
+/// A request that nothing confirms is believed when it came this often.
+const BELIEVED_TIMES: u32 = 3;
+
 /// A command that does nothing.
 const NOTHING: &str = "G4 P0";
 
@@ -108,8 +111,8 @@ pub(super) struct SendQueue {
     reports: Option<(u32, u32)>,
     /// Number after `Last Line:` plus one, from the error just before a request.
     announced: Option<u32>,
-    /// The last doubtful request.
-    doubted: Option<u32>,
+    /// The last doubtful request, and how often it came.
+    doubted: Option<(u32, u32)>,
     /// Acknowledged lines kept at least.
     keep: usize,
     /// Mark of the last job line that is not kept any more.
@@ -322,8 +325,8 @@ impl SendQueue {
 
     pub(super) fn on_resend(&mut self, number: u32) -> Resent {
         let confirmed = self.announced.take() == Some(number);
-        if self.floor == 0 && (number < self.first || number > self.end()) {
-            // M110 itself was lost: nothing of this numbering has arrived.
+        if self.floor == 0 && number != 1 {
+            // Nothing proves yet that M110 arrived: the number may be one of an older count.
             return self.restart_numbering();
         }
         if number < self.floor || number < self.first || number > self.end() {
@@ -353,13 +356,19 @@ impl SendQueue {
     }
 
     fn on_strange(&mut self, number: u32, confirmed: bool) -> Resent {
-        let again = self.doubted.replace(number) == Some(number);
+        let times = self.doubted.filter(|(n, _)| *n == number).map_or(1, |(_, times)| times + 1);
+        self.doubted = Some((number, times));
         let at_hand = number >= self.first && number <= self.end();
-        if confirmed && number <= 1 {
-            return Resent::CountLost;
-        }
-        if confirmed || (again && !at_hand) {
-            return Resent::Impossible;
+        match confirmed {
+            true if number <= 1 => return Resent::CountLost,
+            true if at_hand => {
+                // Twice said: then it was we who took something for certain that was not.
+                self.floor = number;
+                self.go_back_to(number);
+                return Resent::Followed;
+            }
+            false if at_hand || times < BELIEVED_TIMES => {}
+            true | false => return Resent::Impossible,
         }
         self.surplus += 1;
         Resent::Doubtful
@@ -413,6 +422,13 @@ impl SendQueue {
     /// A line without number went out; its `ok` acknowledges none of ours.
     pub(super) fn expect_surplus_ok(&mut self) {
         self.surplus += 1;
+    }
+
+    /// Something else than an `ok` shows that the printer has this line.
+    pub(super) fn prove(&mut self, number: u32) {
+        if number < self.cursor {
+            self.floor = self.floor.max(number + 1);
+        }
     }
 
     /// The printer has this line, by its own word.

@@ -3,16 +3,16 @@
 use std::time::Duration;
 
 use super::line::{may_take_long, waits_for_heat};
-use super::{Closing, Input, Printer, State, StopReason, Waiting};
+use super::{Input, Printer, Proof, State, StopReason, Waiting};
 
 /// After the first line of a banner the board is given this long before it is spoken to.
 const BANNER_WAIT: Duration = Duration::from_secs(1);
 
-/// The closing `M105` keeps this far from another one, whose answer may be doubled.
+/// An `M105` that has to prove something keeps this far from another one, whose answer may be doubled.
 const REPORT_GAP: Duration = Duration::from_millis(250);
 
-/// How often the closing `M105` is sent before a plain `ok` is believed.
-const CLOSING_TRIES: u32 = 3;
+/// How often it is sent before a plain `ok` is believed.
+const PROOF_TRIES: u32 = 3;
 
 /// While anything else comes in, and again in a command that takes long, this many times more probes are
 /// sent before the link is lost.
@@ -27,8 +27,8 @@ pub(super) struct Timers {
     pub(super) doubt: Option<Duration>,
     /// `M105` is due.
     pub(super) report: Option<Duration>,
-    /// The closing `M105` is sent or given up.
-    pub(super) closing: Option<Duration>,
+    /// The `M105` that proves the count is sent or given up.
+    pub(super) proof: Option<Duration>,
     /// The last `ok`, resend or busy, or the first line after a time with none in flight.
     progress: Duration,
     /// The last answer to `M105`.
@@ -47,7 +47,7 @@ impl Printer {
     /// The time of the next deadline, to hand to [`Printer::handle_timeout`].
     pub fn poll_timeout(&self) -> Option<Duration> {
         let t = &self.timers;
-        [t.handshake, t.doubt, t.report, t.closing, self.silence_ends()].into_iter().flatten().min()
+        [t.handshake, t.doubt, t.report, t.proof, self.silence_ends()].into_iter().flatten().min()
     }
 
     pub(super) fn on_timers(&mut self) {
@@ -63,8 +63,8 @@ impl Printer {
         if due(self.timers.report) {
             self.report_is_due();
         }
-        if due(self.timers.closing) {
-            self.closing_is_due();
+        if due(self.timers.proof) {
+            self.proof_is_due();
         }
         if due(self.silence_ends()) {
             self.probe();
@@ -91,7 +91,9 @@ impl Printer {
     /// A line was answered: the next one's silence counts anew.
     pub(super) fn answered(&mut self) {
         self.progress();
-        self.timers.doubt = None;
+        if !self.queue.awaits_release() {
+            self.timers.doubt = None;
+        }
     }
 
     pub(super) fn reported(&mut self) {
@@ -184,46 +186,49 @@ impl Printer {
         }
     }
 
-    // ---- the end of a job ----
+    // ---- the proof that the printer counts as we do ----
 
-    pub(super) fn begin_closing(&mut self) {
-        self.closing = Closing::default();
-        self.timers.closing = Some(self.now);
+    /// At the begin of a job, that the new numbering has arrived; at its end, that all of it has.
+    pub(super) fn begin_proof(&mut self) {
+        self.proof = Proof::default();
+        self.timers.proof = Some(self.now);
     }
 
-    /// Sends the closing `M105` when nothing else is out, and takes its answer for the end of the job.
-    pub(super) fn settle_closing(&mut self) -> bool {
-        if let Some(number) = self.closing.number {
-            return self.queue.is_certain(number) && self.finish();
+    /// Sends an `M105` when nothing else is out; its answer comes for a line that was taken in order, and
+    /// so for all before it. True when the proof is there.
+    pub(super) fn prove(&mut self) -> bool {
+        if self.proof.believed {
+            return true;
         }
-        let quiet = self.now >= self.timers.last_report + REPORT_GAP;
-        let clear = self.waiting.is_empty() && self.queue.everything_acked() && !self.queue.report_pending();
-        if !clear {
+        if let Some(number) = self.proof.number {
+            return self.queue.is_certain(number);
+        }
+        let quiet = self.timers.last_report + REPORT_GAP;
+        if !self.queue.everything_acked() || self.queue.report_pending() {
             return false;
         }
-        if !quiet {
-            self.timers.closing = Some(self.timers.last_report + REPORT_GAP);
+        if self.now < quiet {
+            self.timers.proof = Some(quiet);
             return false;
         }
-        self.closing.number = Some(self.queue.end());
-        self.timers.closing = Some(self.now + self.options.closing_wait);
-        self.wait_with(["M105".to_owned()]);
-        true
+        self.timers.proof = Some(self.now + self.options.proof_wait);
+        self.proof.number = Some(self.queue.end());
+        self.send_now("M105".to_owned());
+        false
     }
 
-    fn closing_is_due(&mut self) {
-        let finishing = self.state == State::Finishing;
-        self.timers.closing = finishing.then_some(self.now + self.options.closing_wait);
-        if !finishing || !self.queue.everything_acked() {
+    /// A firmware that does not answer `M105` in the `ok` line is believed after some tries, if it asks
+    /// for nothing again.
+    fn proof_is_due(&mut self) {
+        let wanted = self.state == State::Finishing || self.waiting.contains(&Waiting::Proof);
+        self.timers.proof = wanted.then_some(self.now + self.options.proof_wait);
+        if !wanted || !self.queue.everything_acked() {
             return;
         }
         self.queue.forget_reports();
-        if self.closing.number.take().is_some() {
-            self.closing.tries += 1;
-            if self.closing.tries >= CLOSING_TRIES {
-                // A firmware that does not answer M105 in the `ok` line; it asked for nothing again.
-                self.finish();
-            }
+        if self.proof.number.take().is_some() {
+            self.proof.tries += 1;
+            self.proof.believed = self.proof.tries >= PROOF_TRIES;
         }
     }
 
