@@ -262,6 +262,8 @@ impl Printer {
         let Some(job) = self.job.as_mut() else { return false };
         match job.peek(limit) {
             Step::Send { command, .. } if !self.queue.has_room(window, command.len()) => return false,
+            // It would overtake lines that are not in the printer yet.
+            Step::Emergency { .. } if !self.queue.everything_acked() => return false,
             Step::End => {
                 self.enter(Input::JobSent);
                 self.begin_proof();

@@ -482,10 +482,10 @@ impl Printer {
         self.job = None;
         self.ending = reason;
         self.waiting.clear();
-        self.queue.void_job_lines();
         if self.queue.oldest().is_some_and(waits_for_heat) {
             self.jump_the_queue("M108");
         }
+        self.queue.void_job_lines();
         self.wait_with(self.options.cancel_lines.clone());
     }
 
