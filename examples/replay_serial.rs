@@ -27,7 +27,7 @@
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-use foothold::printer::{CommandError, Event, JobStart, Printer, PrinterOptions};
+use foothold::printer::{CommandError, Event, JobStart, Printer, PrinterOptions, State};
 
 /// What a replay has said and heard, and what is still unread of it.
 struct Replay {
@@ -256,10 +256,8 @@ fn throughput(lines: u64) -> Result<f64, String> {
                 _ => {}
             }
         }
-        if printer.state() == foothold::printer::State::Ready {
-            if let Some(start) = job.take() {
-                printer.start(now, start).map_err(|error| error.to_string())?;
-            }
+        if let Some(start) = job.take_if(|_| printer.state() == State::Ready) {
+            printer.start(now, start).map_err(|error| error.to_string())?;
         }
         answer_at_once(&mut printer, begin.elapsed());
     }

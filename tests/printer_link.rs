@@ -200,7 +200,7 @@ fn mixed_run(seed: u64) -> Result<(), String> {
     const MOVES: usize = 300;
     let job = job(MOVES);
     let mut rig = Rig::new(PrinterOptions::default(), faulty_printer(seed, MOVES));
-    if seed % 3 == 0 {
+    if seed.is_multiple_of(3) {
         rig.sim.power_on();
     }
     rig.printer.connect(rig.now).expect("offline");
@@ -582,6 +582,7 @@ transcripts! {
     cancel_during_resend,
     console,
     emergency_stop,
+    emergency_stop_after_lost,
     emergency_stop_in_the_file,
     error_when_ready,
     finish,
@@ -600,6 +601,7 @@ transcripts! {
     ok_doubled,
     ok_lost,
     pause,
+    pause_before_the_first_move,
     pause_during_resend,
     pause_in_the_file,
     polling,

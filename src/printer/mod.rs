@@ -259,7 +259,7 @@ impl Printer {
         Ok(())
     }
 
-    /// Pauses the job and parks the head.
+    /// Pauses the job and parks the head. Before the first move of the job the head stays where it is.
     ///
     /// # Errors
     ///
@@ -285,7 +285,8 @@ impl Printer {
         Ok(())
     }
 
-    /// Drops the job and cools down; a wait for heat is broken off. Lines already sent are printed.
+    /// Drops the job and cools down; a wait for heat is broken off. Lines that the printer has taken are
+    /// printed; one that it asks for again is not.
     ///
     /// # Errors
     ///
@@ -298,11 +299,12 @@ impl Printer {
         Ok(())
     }
 
-    /// `M112`, in the very next [`Printer::poll_transmit`].
+    /// `M112`, in the very next [`Printer::poll_transmit`]. Possible in every state: the port may be open
+    /// even where the link was given up.
     ///
     /// # Errors
     ///
-    /// Without a link.
+    /// None today; the table decides.
     pub fn emergency_stop(&mut self, now: Duration) -> Result<(), CommandError> {
         self.advance(now);
         self.allowed(Input::EmergencyStop)?;
@@ -456,9 +458,9 @@ impl Printer {
             return;
         }
         self.tell(Event::Paused(reason));
-        if self.state == State::Parking {
+        let position = self.job.as_ref().map(|job| job.position).unwrap_or_default();
+        if self.state == State::Parking && position.is_known() {
             self.parked = true;
-            let position = self.job.as_ref().map(|job| job.position).unwrap_or_default();
             self.wait_with(position.park(&self.options.park_lines));
         }
     }

@@ -43,6 +43,11 @@ impl Position {
         }
     }
 
+    /// The job has moved the head.
+    pub(super) fn is_known(&self) -> bool {
+        self.x.is_some() || self.y.is_some() || self.z.is_some()
+    }
+
     /// E moves are distances.
     pub fn e_is_relative(&self) -> bool {
         self.extruder_relative.unwrap_or(self.relative)

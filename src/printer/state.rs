@@ -77,6 +77,8 @@ use State as S;
 /// State, input, next state. A state with no row for an input does not take it.
 pub const TABLE: &[(State, Input, State)] = &[
     (S::Offline, I::Connect, S::Connecting),
+    // The link was given up, but the port may still be open.
+    (S::Offline, I::EmergencyStop, S::Halted),
     //
     (S::Connecting, I::Connect, S::Connecting),
     (S::Connecting, I::EmergencyStop, S::Halted),
