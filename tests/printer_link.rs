@@ -586,6 +586,7 @@ transcripts! {
     emergency_stop_in_the_file,
     error_when_ready,
     finish,
+    finish_with_ok_doubled,
     go_on_at_a_line,
     handshake,
     heating,
