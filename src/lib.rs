@@ -20,10 +20,17 @@
 //! on a grid of [`polygon::GRID_MM`]. Equal input gives equal bytes, natively and as wasm: no clock,
 //! no randomness, no hash-map order, no platform sine ([`polygon::trig`]).
 
+pub mod adhesion;
+pub mod gcode;
 pub mod mesh;
 pub mod options;
+pub mod pipeline;
 pub mod polygon;
 pub mod printer;
 pub mod region;
+pub mod settings;
 pub mod slice;
 pub mod toolpath;
+pub mod view;
+#[cfg(target_arch = "wasm32")]
+pub mod wasm;

@@ -4,7 +4,7 @@
 
 use clipper2_rust::{ClipType, Clipper64, FillRule, Path64, Paths64, Point64};
 
-use super::{Contour, DVec2, GRID_PER_MM, PolygonSet, dvec2};
+use super::{Contour, DVec2, GRID_PER_MM, PolygonSet, dvec2, grid_steps};
 
 /// A connected area smaller than this is a rounding artefact, mm2 (100 grid cells).
 pub const NOTHING_MM2: f64 = 1e-6;
@@ -50,7 +50,13 @@ impl PolygonSet {
 
     /// The union of many areas in one pass.
     pub fn union_all<'a>(sets: impl IntoIterator<Item = &'a PolygonSet>) -> PolygonSet {
-        let paths: Paths64 = sets.into_iter().flat_map(|s| to_paths(s.contours())).collect();
+        let mut sets = sets.into_iter().filter(|s| !s.is_empty()).peekable();
+        let Some(first) = sets.next() else { return PolygonSet::EMPTY };
+        if sets.peek().is_none() {
+            return first.clone();
+        }
+        let paths: Paths64 =
+            std::iter::once(first).chain(sets).flat_map(|s| to_paths(s.contours())).collect();
         run(ClipType::Union, paths, Paths64::new())
     }
 
@@ -111,5 +117,6 @@ fn from_path(path: &Path64) -> Vec<DVec2> {
 }
 
 fn to_point(p: DVec2) -> Point64 {
-    Point64::new((p.x * GRID_PER_MM).round() as i64, (p.y * GRID_PER_MM).round() as i64)
+    let steps = grid_steps(p);
+    Point64::new(steps.x as i64, steps.y as i64)
 }

@@ -15,6 +15,14 @@ impl PolygonSet {
     }
 }
 
+impl PolygonSet {
+    /// Like [`PolygonSet::simplified`], but not united again: outlines may cross by up to
+    /// `tolerance`. For operands of booleans, which do not mind.
+    pub fn roughened(&self, tolerance: f64) -> PolygonSet {
+        PolygonSet::canonical(self.contours().iter().map(|c| simplify_ring(c, tolerance)).collect())
+    }
+}
+
 /// Douglas-Peucker on a closed contour: the two ends are its first point and the point farthest
 /// from it, both kept.
 pub fn simplify_ring(contour: &Contour, tolerance: f64) -> Contour {

@@ -1,5 +1,6 @@
 //! What each area of a layer is for.
 
+pub mod first_layer;
 mod path;
 pub mod shell;
 

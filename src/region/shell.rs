@@ -13,7 +13,7 @@ crate::options! {
     }
 }
 
-/// What of a layer's area lies bare.
+/// What of a layer's area lies bare, hair lines along its outline left out.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Exposure {
     /// Not covered by the next layer.
@@ -23,12 +23,33 @@ pub struct Exposure {
 }
 
 /// Compares a layer's area with its neighbours'; `None` is open air or the bed.
-pub fn exposure(below: Option<&PolygonSet>, area: &PolygonSet, above: Option<&PolygonSet>) -> Exposure {
+///
+/// Strips along the outline up to `hair` mm wide are passed over, wider ones come out `hair` wider. On a steep slope every layer has such a strip
+/// along its whole outline, and the walls cover it on this layer and on those below; see
+/// [`hair_of_walls`].
+pub fn exposure(
+    below: Option<&PolygonSet>,
+    area: &PolygonSet,
+    above: Option<&PolygonSet>,
+    hair: f64,
+) -> Exposure {
+    let differs = |n: Option<&PolygonSet>| n.is_some_and(|n| n != area);
+    let core = match differs(below) || differs(above) {
+        true => area.offset(-hair, Join::WALL),
+        false => PolygonSet::EMPTY,
+    };
     let bare = |neighbour: Option<&PolygonSet>| match neighbour {
-        Some(n) => area.difference(n),
         None => area.clone(),
+        Some(same) if same == area => PolygonSet::EMPTY,
+        Some(other) => core.difference(other).offset(hair, Join::WALL),
     };
     Exposure { top: bare(above), bottom: bare(below) }
+}
+
+/// Width of the strips that may be passed over under walls `thickness` mm thick and skins of up to
+/// `layers` layers: as many strips side by side still lie within the walls.
+pub fn hair_of_walls(thickness: f64, layers: u32) -> f64 {
+    thickness / f64::from(layers.max(1))
 }
 
 /// The exposures that decide about one layer's fill.
@@ -41,13 +62,14 @@ pub struct Shells<'a> {
 
 /// Divides the area inside the walls into skins, solid infill behind them and sparse infill.
 ///
-/// Solid places narrower than `bead_width` mm are left to the sparse infill. With `all_solid`
+/// Solid places narrower than half of `bead_width`, mm, are left to the sparse infill; all others
+/// reach one bead's width into it, so that their lines have something to hold on. With `all_solid`
 /// nothing is sparse.
 pub fn divide(inner: &PolygonSet, shells: &Shells, bead_width: f64, all_solid: bool) -> Vec<Region> {
     let near_surface = || shells.tops.iter().chain(shells.bottoms).copied();
     let solid = match all_solid {
         true => inner.clone(),
-        false => inner.intersection_with_any(near_surface()).opened(bead_width / 2.0, Join::WALL),
+        false => anchored(&inner.intersection_with_any(near_surface()), inner, bead_width),
     };
     let bare = |exposed: Option<&&PolygonSet>, within: &PolygonSet| match exposed {
         Some(e) => within.intersection(e).opened(bead_width / 2.0, Join::WALL),
@@ -65,6 +87,12 @@ pub fn divide(inner: &PolygonSet, shells: &Shells, bead_width: f64, all_solid: b
     regions.into_iter().filter(|r| !r.area.is_empty()).collect()
 }
 
+/// The solid area without hair lines, grown by one bead's width within `inner`.
+fn anchored(solid: &PolygonSet, inner: &PolygonSet, bead_width: f64) -> PolygonSet {
+    let core = solid.offset(-bead_width / 4.0, Join::WALL);
+    core.offset(bead_width * 1.25, Join::WALL).intersection(inner)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -77,18 +105,28 @@ mod tests {
     #[test]
     fn a_step_is_top_skin_and_the_layer_below_it_is_solid() {
         let (large, small) = (square(20.0), square(10.0));
-        let step = exposure(Some(&large), &large, Some(&small));
-        assert!((step.top.area() - 300.0).abs() < 1e-6);
+        let step = exposure(Some(&large), &large, Some(&small), 0.1);
+        assert!((step.top.area() - 300.0).abs() < 3.0);
         assert!(step.bottom.is_empty());
 
         let at_step = divide(&large, &Shells { tops: &[&step.top], bottoms: &[] }, 0.4, false);
         let roles: Vec<(Role, f64)> = at_step.iter().map(|r| (r.role, r.area.area().round())).collect();
-        assert_eq!(roles, [(Role::Infill, 100.0), (Role::TopSkin, 300.0)]);
+        // The bare top comes out 0.1 mm wider, and its solid area reaches 0.4 mm farther.
+        let sparse = 9.5f64 * 9.5;
+        assert_eq!(roles, [(Role::Infill, 90.0), (Role::SolidInfill, 8.0), (Role::TopSkin, 302.0)]);
+        assert!((at_step[0].area.area() - sparse).abs() < 0.01);
 
         let none = PolygonSet::EMPTY;
         let below = divide(&large, &Shells { tops: &[&none, &step.top], bottoms: &[] }, 0.4, false);
         let roles: Vec<(Role, f64)> = below.iter().map(|r| (r.role, r.area.area().round())).collect();
-        assert_eq!(roles, [(Role::Infill, 100.0), (Role::SolidInfill, 300.0)]);
+        assert_eq!(roles, [(Role::Infill, 90.0), (Role::SolidInfill, 310.0)]);
+    }
+
+    #[test]
+    fn the_strip_of_a_steep_slope_is_no_skin_and_that_of_a_flat_one_is() {
+        let rim = |width: f64| exposure(None, &square(20.0), Some(&square(20.0 - width)), 0.1).top;
+        assert!(rim(0.09).is_empty());
+        assert!((rim(1.0).area() - (400.0 - 19.0 * 19.0)).abs() < 5.0);
     }
 
     #[test]

@@ -2,4 +2,10 @@
 
 pub mod bead;
 pub mod infill;
+pub mod medial;
+pub mod order;
+pub mod seam;
 pub mod walls;
+
+pub use bead::Bead;
+pub use order::{LayerParts, LayerPaths, order_layer};

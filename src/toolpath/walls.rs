@@ -1,7 +1,7 @@
 //! Nested loops along every outline, and what they leave over.
 //!
 //! A loop is laid only where the part is thick enough for two beads side by side; thinner places
-//! are handed on as `thin`, to be filled by beads of fitting width.
+//! are handed on, to be filled by beads of fitting width.
 
 use super::bead::Bead;
 use crate::polygon::{Join, PolygonSet};
@@ -23,8 +23,10 @@ crate::options! {
 pub struct Walls {
     /// Closed beads with their depth: 0 is the outer wall.
     pub loops: Vec<(u32, Path)>,
-    /// Places too thin for two beads side by side.
-    pub thin: PolygonSet,
+    /// Places at the outline too thin for two beads side by side.
+    pub thin_outer: PolygonSet,
+    /// The like between inner walls.
+    pub thin_inner: PolygonSet,
     /// What lies inside the innermost wall, up to the border of its bead's cell.
     pub inner: PolygonSet,
 }
@@ -43,7 +45,7 @@ const NO_THIN_PLACES: f64 = 0.01;
 pub fn lay_walls(outline: &PolygonSet, bead: Bead, count: u32) -> Walls {
     let spacing = bead.spacing();
     let mut walls = Walls { inner: outline.clone(), ..Walls::default() };
-    let mut thin = Vec::new();
+    let mut thin_inner = Vec::new();
     for depth in 0..count {
         if walls.inner.is_empty() {
             break;
@@ -51,14 +53,17 @@ pub fn lay_walls(outline: &PolygonSet, bead: Bead, count: u32) -> Walls {
         let to_centre = if depth == 0 { bead.width / 2.0 } else { spacing / 2.0 };
         let inside = walls.inner.offset(-(to_centre + spacing / 2.0), Join::WALL);
         let centre = inside.offset(spacing / 2.0, Join::WALL);
-        thin.push(thin_places(&walls.inner, &centre, to_centre));
+        let thin = thin_places(&walls.inner, &centre, to_centre);
         let role = if depth == 0 { Role::OuterWall } else { Role::InnerWall };
+        match depth {
+            0 => walls.thin_outer = thin,
+            _ => thin_inner.push(thin),
+        }
         let as_path = |points| (depth, Path::closed(role, points, bead.width));
         walls.loops.extend(centre.into_contours().into_iter().map(|c| as_path(c.points)));
         walls.inner = inside;
     }
-    thin.retain(|t| !t.is_empty());
-    walls.thin = if thin.is_empty() { PolygonSet::EMPTY } else { PolygonSet::union_all(&thin) };
+    walls.thin_inner = PolygonSet::union_all(&thin_inner);
     walls
 }
 
@@ -87,7 +92,7 @@ mod tests {
             let side = 20.0 - 0.45 - 2.0 * s * i as f64;
             assert!((length - 4.0 * side).abs() < 2e-3, "{length} is not 4 x {side}");
         }
-        assert!(walls.thin.is_empty());
+        assert!(walls.thin_outer.is_empty() && walls.thin_inner.is_empty());
         let side = 20.0 - 0.45 - 5.0 * s;
         assert!((walls.inner.area() - side * side).abs() < 0.02);
     }
@@ -96,7 +101,7 @@ mod tests {
     fn a_plate_too_thin_for_two_beads_is_thin_all_over() {
         let walls = lay_walls(&PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(20.0, 0.6)), BEAD, 3);
         assert!(walls.loops.is_empty());
-        assert!((walls.thin.area() - 12.0).abs() < 1e-3);
+        assert!((walls.thin_outer.area() - 12.0).abs() < 1e-3);
         assert!(walls.inner.is_empty());
     }
 
@@ -105,6 +110,6 @@ mod tests {
         let walls = lay_walls(&PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(20.0, 1.1)), BEAD, 3);
         assert_eq!(walls.loops.len(), 1);
         let left = 1.1 - 0.45 - BEAD.spacing();
-        assert!((walls.thin.area() - left * (20.0 - 0.45 - BEAD.spacing())).abs() < 0.02);
+        assert!((walls.thin_inner.area() - left * (20.0 - 0.45 - BEAD.spacing())).abs() < 0.02);
     }
 }

@@ -148,7 +148,7 @@ const LONGEST_LINK: f64 = 3.0;
 pub fn hatch_linked(area: &PolygonSet, role: Role, bead: Bead, hatch: Hatch) -> (Vec<Path>, PolygonSet) {
     let half = bead.spacing() / 2.0;
     let core = area.offset(-half, Join::WALL);
-    let narrow = area.difference(&core.offset(half, Join::WALL)).opened(bead.width / 8.0, Join::WALL);
+    let narrow = narrow_places(area, &core.offset(half, Join::WALL), bead);
     let weave = Weave::new(&core, hatch);
     let mut laid = vec![false; weave.crossings.len()];
     let mut paths = Vec::new();
@@ -159,6 +159,17 @@ pub fn hatch_linked(area: &PolygonSet, role: Role, bead: Bead, hatch: Hatch) -> 
         }
     }
     (paths, narrow)
+}
+
+/// Area under which places too narrow for a bead are not worth a look, mm2.
+const NO_NARROW_PLACES: f64 = 0.01;
+
+/// What of `area` the beads do not reach, without slivers.
+fn narrow_places(area: &PolygonSet, reached: &PolygonSet, bead: Bead) -> PolygonSet {
+    if area.area() - reached.area() < NO_NARROW_PLACES {
+        return PolygonSet::EMPTY;
+    }
+    area.difference(reached).opened(bead.width / 8.0, Join::WALL)
 }
 
 /// One bead: line, link, line, ... until no unlaid line is within reach of the end.

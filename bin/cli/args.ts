@@ -1,0 +1,170 @@
+// Words of the command line -> a command. Wrong use is a UsageError.
+import { availableParallelism } from 'node:os';
+import { type ParseArgsConfig, parseArgs } from 'node:util';
+
+export class UsageError extends Error {
+  override name = 'UsageError';
+}
+
+/** Settings as the user gave them: files first, then single values. */
+export interface SettingWords {
+  readonly files: readonly string[];
+  readonly sets: readonly string[];
+}
+
+export type Command =
+  | {
+      readonly kind: 'slice';
+      readonly models: readonly string[];
+      readonly out: string | undefined;
+      readonly settings: SettingWords;
+      readonly report: string | undefined;
+      readonly workers: number;
+    }
+  | { readonly kind: 'inspect'; readonly model: string; readonly report: string | undefined }
+  | {
+      readonly kind: 'draw';
+      readonly model: string;
+      readonly what: { readonly layer: number } | { readonly plane: string };
+      readonly out: string;
+      readonly settings: SettingWords;
+    }
+  | { readonly kind: 'settings'; readonly settings: SettingWords; readonly schema: boolean }
+  | { readonly kind: 'help' }
+  | { readonly kind: 'version' };
+
+export const help = `Foothold: STL in, printable G-code out.
+
+usage: foothold slice MODEL... [-o OUT.gcode] [--settings F.json] [--set path=value]...
+                [--report R.json] [--workers N]
+       foothold inspect MODEL [--report R.json]
+       foothold draw MODEL (--layer K | --plane y=12.5) -o OUT.svg [--settings F.json] [--set path=value]...
+       foothold settings [--schema] [--settings F.json] [--set path=value]...
+
+  slice      writes G-code; several models are arranged on the bed
+  inspect    counts triangles, shells and faults, and measures the model
+  draw       one layer (K counts from 0) or one vertical plane as a picture
+  settings   all settings, or their JSON Schema
+
+  -o, --output     file to write, whole or not at all; - is standard output
+  --settings       settings as JSON; may be given again, the later one wins
+  --set            one setting: JSON, else a plain word (--set adhesion.kind=skirt)
+  --report         what was made, as JSON
+  --workers        engines that slice at the same time (default: processors, at most 4)
+  --help, --version
+
+exit: 0 done; 1 a bug of ours; 2 wrong use or settings; 3 a model that can't be read or used;
+      4 it does not fit the printer
+`;
+
+const settingOptions = {
+  settings: { type: 'string', multiple: true },
+  set: { type: 'string', multiple: true },
+} as const;
+const output = { output: { type: 'string', short: 'o' } } as const;
+const report = { report: { type: 'string' } } as const;
+
+/** The command that `words` (without node and the script) ask for. */
+export function parseCommand(words: readonly string[]): Command {
+  const [name, ...rest] = words;
+  if (name === undefined) throw new UsageError('no command: try foothold --help');
+  if (name === 'help' || words.includes('--help') || words.includes('-h')) return { kind: 'help' };
+  if (name === '--version' || name === '-V') return { kind: 'version' };
+  switch (name) {
+    case 'slice':
+      return slice(rest);
+    case 'inspect':
+      return inspect(rest);
+    case 'draw':
+      return draw(rest);
+    case 'settings':
+      return settings(rest);
+    default:
+      throw new UsageError(`no command "${name}": slice, inspect, draw and settings are there`);
+  }
+}
+
+function slice(words: readonly string[]): Command {
+  const options = { ...settingOptions, ...output, ...report, workers: { type: 'string' } } as const;
+  const { values, positionals } = parsed({ args: [...words], options, allowPositionals: true });
+  if (positionals.length === 0) throw new UsageError('slice needs a model');
+  return {
+    kind: 'slice',
+    models: positionals,
+    out: values.output,
+    settings: settingWords(values),
+    report: values.report,
+    workers: values.workers === undefined ? Math.min(availableParallelism(), 4) : workerCount(values.workers),
+  };
+}
+
+function inspect(words: readonly string[]): Command {
+  const { values, positionals } = parsed({ args: [...words], options: report, allowPositionals: true });
+  return { kind: 'inspect', model: oneModel('inspect', positionals), report: values.report };
+}
+
+function draw(words: readonly string[]): Command {
+  const options = { ...settingOptions, ...output, layer: { type: 'string' }, plane: { type: 'string' } } as const;
+  const { values, positionals } = parsed({ args: [...words], options, allowPositionals: true });
+  const model = oneModel('draw', positionals);
+  if (values.output === undefined) throw new UsageError('draw needs -o OUT.svg');
+  return {
+    kind: 'draw',
+    model,
+    what: drawn(values.layer, values.plane),
+    out: values.output,
+    settings: settingWords(values),
+  };
+}
+
+function drawn(layer: string | undefined, plane: string | undefined): { layer: number } | { plane: string } {
+  if (layer !== undefined && plane !== undefined) throw new UsageError('draw takes --layer or --plane, not both');
+  if (layer !== undefined) return { layer: wholeNumber('--layer', layer, 0, 1_000_000) };
+  if (plane === undefined) throw new UsageError('draw needs --layer K or --plane y=12.5');
+  if (!/^[xy]=[-+]?(\d+\.?\d*|\.\d+)$/.test(plane)) {
+    throw new UsageError(`--plane ${plane}: expected x or y, = and a number of mm, such as y=12.5`);
+  }
+  return { plane };
+}
+
+function settings(words: readonly string[]): Command {
+  const options = { ...settingOptions, schema: { type: 'boolean' } } as const;
+  const { values } = parsed({ args: [...words], options, allowPositionals: false });
+  return { kind: 'settings', settings: settingWords(values), schema: values.schema ?? false };
+}
+
+/** `parseArgs`, with its errors as ours: one short line. */
+function parsed<T extends ParseArgsConfig>(config: T): ReturnType<typeof parseArgs<T>> {
+  try {
+    return parseArgs<T>(config);
+  } catch (error) {
+    const [first = ''] = (error instanceof Error ? error.message : String(error)).split(/\. |\n/);
+    throw new UsageError(first.charAt(0).toLowerCase() + first.slice(1));
+  }
+}
+
+function settingWords(values: { settings?: string[]; set?: string[] }): SettingWords {
+  for (const word of values.set ?? []) {
+    if (!/^[^=]+=/.test(word)) throw new UsageError(`--set ${word}: expected path=value`);
+  }
+  return { files: values.settings ?? [], sets: values.set ?? [] };
+}
+
+function oneModel(command: string, positionals: readonly string[]): string {
+  const [model, ...more] = positionals;
+  if (model === undefined) throw new UsageError(`${command} needs a model`);
+  if (more.length > 0) throw new UsageError(`${command} takes one model, not ${positionals.length}`);
+  return model;
+}
+
+function workerCount(word: string): number {
+  return wholeNumber('--workers', word, 1, 64);
+}
+
+function wholeNumber(option: string, word: string, low: number, high: number): number {
+  const value = Number(word);
+  if (!/^\d+$/.test(word) || value < low || value > high) {
+    throw new UsageError(`${option} ${word}: expected a whole number from ${low} to ${high}`);
+  }
+  return value;
+}

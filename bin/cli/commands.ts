@@ -1,0 +1,113 @@
+// What each command does.
+import { readFileSync, realpathSync } from 'node:fs';
+import { partsOf } from '../../www/src/slicer/gcode.ts';
+import { Pool } from '../../www/src/slicer/pool.ts';
+import { type Command, type SettingWords, UsageError } from './args.ts';
+import { openModel } from './disk-file.ts';
+import { FileError, reasonOf } from './errors.ts';
+import { inWords } from './inspection.ts';
+import { nodeLanes } from './lanes.ts';
+import { Output } from './output.ts';
+import { progressBar } from './progress.ts';
+
+type Of<K extends Command['kind']> = Extract<Command, { kind: K }>;
+
+export async function slice({ models, out, settings, report, workers }: Of<'slice'>): Promise<void> {
+  const sources = models.map(openModel);
+  const outputs = [out, report].filter((it) => it !== undefined);
+  refuseClash(outputs, models);
+  await withPool(workers, async (pool) => {
+    const all = await resolve(pool, settings);
+    const [gcodeOut, reportOut] = [maybe(out), maybe(report)];
+    const progress = progressBar(process.stderr);
+    try {
+      await pool.open(sources);
+      const gcode = await pool.slice({ settings: all, progress: progress.show });
+      const target = gcodeOut ?? new Output(gcode.joined.fileName);
+      target.write(partsOf(gcode));
+      reportOut?.write([gcode.joined.report, '\n']);
+      target.finish();
+      reportOut?.finish();
+    } finally {
+      progress.clear();
+    }
+  });
+}
+
+export async function inspect({ model, report }: Of<'inspect'>): Promise<void> {
+  const source = openModel(model);
+  refuseClash(report === undefined ? [] : [report], [model]);
+  await withPool(1, async (pool) => {
+    const reportOut = maybe(report);
+    const { inspections } = await pool.open([source]);
+    const inspection = inspections[0] ?? '{}';
+    reportOut?.write([inspection, '\n']);
+    reportOut?.finish();
+    if (report !== '-') new Output('-').write([inWords(inspection)]);
+  });
+}
+
+export async function draw({ model, what, out, settings }: Of<'draw'>): Promise<void> {
+  const source = openModel(model);
+  refuseClash([out], [model]);
+  await withPool(1, async (pool) => {
+    const all = await resolve(pool, settings);
+    const target = new Output(out);
+    await pool.open([source]);
+    target.write([await pool.draw(all, what)]);
+    target.finish();
+  });
+}
+
+export async function settings({ settings: words, schema }: Of<'settings'>): Promise<void> {
+  const text = schema
+    ? readFileSync(new URL('./settings.schema.json', import.meta.url), 'utf8')
+    : await withPool(1, async (pool) => JSON.stringify(JSON.parse(await resolve(pool, words)), undefined, 2));
+  new Output('-').write([`${text.trimEnd()}\n`]);
+}
+
+/** Standard output for one thing only, and never a model's own file. */
+function refuseClash(outputs: readonly string[], models: readonly string[]): void {
+  if (new Set(outputs).size < outputs.length) throw new UsageError(`${outputs[0]} can't hold two outputs`);
+  const inputs = new Set(models.map((model) => realpathSync(model)));
+  const clash = outputs.find((out) => inputs.has(realPath(out)));
+  if (clash !== undefined) throw new UsageError(`${clash} is the model itself`);
+}
+
+function realPath(file: string): string {
+  try {
+    return realpathSync(file);
+  } catch {
+    return file;
+  }
+}
+
+const maybe = (name: string | undefined): Output | undefined => (name === undefined ? undefined : new Output(name));
+
+async function withPool<T>(workers: number, work: (pool: Pool) => Promise<T>): Promise<T> {
+  const pool = new Pool(nodeLanes(), workers);
+  try {
+    return await work(pool);
+  } finally {
+    pool.close();
+  }
+}
+
+function resolve(pool: Pool, words: SettingWords): Promise<string> {
+  return pool.settings(words.files.map(readSettings), words.sets);
+}
+
+function readSettings(file: string): string {
+  let text: string;
+  try {
+    text = readFileSync(file, 'utf8');
+  } catch (error) {
+    throw new FileError(file, `can't be read: ${reasonOf(error)}`, 2);
+  }
+  try {
+    JSON.parse(text);
+  } catch (error) {
+    throw new FileError(file, `not JSON: ${error instanceof Error ? error.message : error}`, 2);
+  }
+  return text;
+}

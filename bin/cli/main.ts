@@ -1,0 +1,53 @@
+// The command line: words in; files, one line on stderr and an exit code out.
+import { constants } from 'node:os';
+import { type Command, help, parseCommand } from './args.ts';
+import * as commands from './commands.ts';
+import { verdict } from './errors.ts';
+import { engineVersion } from './lanes.ts';
+import { Output, removeTemporary } from './output.ts';
+
+/** Runs one command; `words` are the arguments after the program's name. Sets the exit code. */
+export async function main(words: readonly string[]): Promise<void> {
+  for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP'] as const) process.on(signal, () => stop(signal));
+  let command: Command | undefined;
+  try {
+    command = parseCommand(words);
+    await perform(command);
+  } catch (error) {
+    const { code, line } = verdict(error, modelsOf(command));
+    process.exitCode = code;
+    process.stderr.write(`foothold: ${line}\n`);
+  } finally {
+    removeTemporary();
+  }
+}
+
+async function perform(command: Command): Promise<void> {
+  switch (command.kind) {
+    case 'slice':
+      return commands.slice(command);
+    case 'inspect':
+      return commands.inspect(command);
+    case 'draw':
+      return commands.draw(command);
+    case 'settings':
+      return commands.settings(command);
+    case 'help':
+      return new Output('-').write([help]);
+    case 'version':
+      return new Output('-').write([`${engineVersion()}\n`]);
+    default:
+      return command satisfies never;
+  }
+}
+
+function modelsOf(command: Command | undefined): readonly string[] {
+  if (command === undefined) return [];
+  if ('models' in command) return command.models;
+  return 'model' in command ? [command.model] : [];
+}
+
+function stop(signal: 'SIGINT' | 'SIGTERM' | 'SIGHUP'): void {
+  removeTemporary();
+  process.exit(128 + constants.signals[signal]);
+}

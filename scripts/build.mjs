@@ -1,0 +1,111 @@
+// Builds everything that can be served or run: `npm run build`. Installs what is missing first.
+//
+//   Rust -> schema/*.json -> TypeScript types
+//   Rust -> wasm -> wasm-bindgen -> wasm-opt -> www/src/generated/engine
+//   www, bin/cli -> dist/page (static files, any sub-path) and dist/node (what bin/foothold.mjs runs)
+import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import path from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { gzipSync } from 'node:zlib';
+import { at, engine, generated, schema, wasmTarget } from './places.mjs';
+import { run, runPackage } from './run.mjs';
+import { npmPackages, wasmBindgen, wasmTargetInstalled } from './setup.mjs';
+import { step } from './step.mjs';
+
+const rust = ['src', 'Cargo.toml', 'Cargo.lock', 'rust-toolchain.toml', '.cargo'];
+const web = ['www', 'package-lock.json', 'vite.config.ts', 'vite.node.config.ts'];
+
+export async function build() {
+  await npmPackages();
+  await wasmTargetInstalled();
+  const bindgen = await wasmBindgen();
+  await schemas();
+  await types();
+  await wasm(bindgen);
+  await sample();
+  await page();
+  await node();
+}
+
+function schemas() {
+  const outputs = ['schema/settings.schema.json', 'schema/report.schema.json'];
+  return step('schema', { inputs: [...rust, 'examples/schema.rs'], outputs }, async () => {
+    mkdirSync(schema, { recursive: true });
+    await run('cargo', ['run', '--quiet', '--locked', '--features', 'schema', '--example', 'schema', '--', schema]);
+  });
+}
+
+function types() {
+  const outputs = ['www/src/generated/settings.ts', 'www/src/generated/report.ts'];
+  return step('types', { inputs: ['schema', 'scripts/build.mjs', 'package-lock.json'], outputs }, async () => {
+    const { compileFromFile } = await import('json-schema-to-typescript');
+    mkdirSync(generated, { recursive: true });
+    for (const name of ['settings', 'report']) {
+      const bannerComment = `// Written by scripts/build.mjs from schema/${name}.schema.json.`;
+      const text = await compileFromFile(path.join(schema, `${name}.schema.json`), {
+        bannerComment,
+        additionalProperties: false,
+      });
+      writeFileSync(path.join(generated, `${name}.ts`), text);
+    }
+  });
+}
+
+function wasm(bindgen) {
+  const outputs = ['foothold.js', 'foothold.d.ts', 'foothold_bg.wasm'].map((it) => `www/src/generated/engine/${it}`);
+  return step('engine', { inputs: [...rust, 'scripts/build.mjs'], outputs }, async () => {
+    await run('cargo', ['build', '--locked', '--release', '--target', wasmTarget, '--lib']);
+    const raw = path.join(targetFolder(), wasmTarget, 'release', 'foothold.wasm');
+    rmSync(engine, { recursive: true, force: true });
+    await run(path.join(bindgen, 'wasm-bindgen'), [
+      raw,
+      '--target',
+      'web',
+      '--out-dir',
+      engine,
+      '--out-name',
+      'foothold',
+    ]);
+    await optimise(path.join(engine, 'foothold_bg.wasm'));
+  });
+}
+
+function targetFolder() {
+  return process.env.CARGO_TARGET_DIR ?? at('target');
+}
+
+async function optimise(file) {
+  const features = ['simd', 'bulk-memory', 'nontrapping-float-to-int', 'sign-ext', 'mutable-globals'];
+  const before = statSync(file).size;
+  await runPackage('binaryen/bin/wasm-opt', ['-O3', ...features.map((it) => `--enable-${it}`), file, '-o', file]);
+  const bytes = readFileSync(file);
+  const kib = (n) => `${(n / 1024).toFixed(0)} KiB`;
+  console.log(
+    `build: engine ${kib(before)} -> ${kib(bytes.length)}, gzip'd ${kib(gzipSync(bytes, { level: 9 }).length)}`,
+  );
+}
+
+function sample() {
+  return step('sample', { inputs: ['scripts/sample.mjs'], outputs: ['www/public/sample.stl'] }, async () => {
+    const { sampleStl } = await import('./sample.mjs');
+    mkdirSync(at('www', 'public'), { recursive: true });
+    writeFileSync(at('www', 'public', 'sample.stl'), sampleStl());
+  });
+}
+
+function page() {
+  return step('page', { inputs: [...web, 'schema'], outputs: ['dist/page/index.html'] }, () =>
+    runPackage('vite/bin/vite.js', ['build', '--logLevel', 'warn']),
+  );
+}
+
+function node() {
+  const outputs = ['dist/node/cli.mjs', 'dist/node/lane.mjs', 'dist/node/foothold_bg.wasm'];
+  return step('node', { inputs: [...web, 'bin', 'schema'], outputs }, () =>
+    runPackage('vite/bin/vite.js', ['build', '--config', 'vite.node.config.ts', '--logLevel', 'warn']),
+  );
+}
+
+if (existsSync(process.argv[1]) && import.meta.url === pathToFileURL(process.argv[1]).href) {
+  await build();
+}

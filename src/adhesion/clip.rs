@@ -1,0 +1,145 @@
+//! Lines cut to what may be printed on: the bed, or an area.
+
+use crate::polygon::measure::Bounds;
+use crate::polygon::{DVec2, PolygonSet, by_x_then_y};
+
+/// A line, closed or open; a closed one does not repeat its first point.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Line {
+    pub(super) points: Vec<DVec2>,
+    pub(super) closed: bool,
+}
+
+impl Line {
+    /// A closed line.
+    pub(super) fn ring(points: Vec<DVec2>) -> Line {
+        Line { points, closed: true }
+    }
+}
+
+/// The pieces of a line inside the box; the line itself, unchanged, when all of it is.
+pub(super) fn to_box(line: Line, bounds: Bounds) -> Vec<Line> {
+    if Bounds::of_points(&line.points).is_some_and(|b| bounds.contains(b)) {
+        return vec![line];
+    }
+    let mut points = line.points;
+    if line.closed {
+        points.extend(points.first().copied());
+    }
+    let mut pieces: Vec<Vec<DVec2>> = Vec::new();
+    for pair in points.windows(2) {
+        let Some((a, b)) = segment_in_box(pair[0], pair[1], bounds) else { continue };
+        match pieces.last_mut() {
+            Some(piece) if piece.last() == Some(&a) => piece.push(b),
+            _ => pieces.push(vec![a, b]),
+        }
+    }
+    joined_at_start(pieces, line.closed)
+}
+
+/// The pieces of a line inside the area, sorted by their first points. The line itself, unchanged,
+/// when nothing is cut off.
+pub(super) fn to_area(line: Line, area: &PolygonSet) -> Vec<Line> {
+    let mut points = line.points.clone();
+    if line.closed {
+        points.extend(points.first().copied());
+    }
+    let length = |points: &[DVec2]| points.windows(2).map(|w| w[0].distance(w[1])).sum::<f64>();
+    let mut pieces = area.clip_lines(std::slice::from_ref(&points));
+    let kept: f64 = pieces.iter().map(|p| length(p)).sum();
+    // Points come back rounded to the grid, by up to half a step at each end of an edge.
+    if kept > length(&points) - GRID_SLACK_MM * points.len() as f64 {
+        return vec![line];
+    }
+    pieces.sort_by(|p, q| by_x_then_y(p[0], q[0]));
+    joined_at_start(pieces, line.closed)
+}
+
+/// A length that rounding to the grid may add or take at one point, mm.
+const GRID_SLACK_MM: f64 = 2e-4;
+
+/// Open lines from pieces of a loop; the pieces on both sides of the loop's start become one.
+fn joined_at_start(mut pieces: Vec<Vec<DVec2>>, closed: bool) -> Vec<Line> {
+    let meet = (0..pieces.len()).find_map(|i| {
+        let end = pieces[i].last().copied();
+        let next = (0..pieces.len()).find(|&j| j != i && pieces[j].first().copied() == end)?;
+        Some((i, next))
+    });
+    if let (true, Some((before, after))) = (closed, meet) {
+        let tail = std::mem::take(&mut pieces[after]);
+        pieces[before].extend(tail.into_iter().skip(1));
+        pieces.remove(after);
+    }
+    pieces.into_iter().map(|points| Line { points, closed: false }).collect()
+}
+
+/// The part of a segment inside the box (Liang and Barsky 1984).
+fn segment_in_box(a: DVec2, b: DVec2, bounds: Bounds) -> Option<(DVec2, DVec2)> {
+    let step = b - a;
+    let (mut from, mut to) = (0.0f64, 1.0f64);
+    for axis in 0..2 {
+        let (start, delta) = (a[axis], step[axis]);
+        let (low, high) = (bounds.min[axis], bounds.max[axis]);
+        if delta == 0.0 {
+            if start < low || start > high {
+                return None;
+            }
+            continue;
+        }
+        let (p, q) = ((low - start) / delta, (high - start) / delta);
+        (from, to) = (from.max(p.min(q)), to.min(p.max(q)));
+    }
+    // Ends that are not cut keep their exact coordinates, so that pieces join up.
+    let at = |share: f64| match share {
+        0.0 => a,
+        1.0 => b,
+        _ => (a + step * share).clamp(bounds.min, bounds.max),
+    };
+    (from < to).then(|| (at(from), at(to)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::polygon::dvec2;
+
+    fn square(low: f64, high: f64) -> Vec<DVec2> {
+        vec![dvec2(low, low), dvec2(high, low), dvec2(high, high), dvec2(low, high)]
+    }
+
+    #[test]
+    fn a_loop_over_the_edge_becomes_one_open_line() {
+        let bed = Bounds { min: dvec2(-1.0, -1.0), max: dvec2(7.0, 20.0) };
+        let pieces = to_box(Line::ring(square(0.0, 10.0)), bed);
+        let expected = [dvec2(7.0, 10.0), dvec2(0.0, 10.0), dvec2(0.0, 0.0), dvec2(7.0, 0.0)];
+        assert_eq!(pieces, [Line { points: expected.to_vec(), closed: false }]);
+    }
+
+    #[test]
+    fn what_lies_inside_stays_as_it_is() {
+        let ring = Line::ring(square(0.0, 10.0));
+        let bed = Bounds { min: dvec2(0.0, 0.0), max: dvec2(10.0, 10.0) };
+        assert_eq!(to_box(ring.clone(), bed), std::slice::from_ref(&ring));
+        let area = PolygonSet::rectangle(dvec2(-1.0, -1.0), dvec2(11.0, 11.0));
+        assert_eq!(to_area(ring.clone(), &area), [ring]);
+    }
+
+    #[test]
+    fn a_loop_beside_the_bed_is_gone() {
+        let bed = Bounds { min: dvec2(11.0, 0.0), max: dvec2(20.0, 10.0) };
+        assert!(to_box(Line::ring(square(0.0, 10.0)), bed).is_empty());
+        let area = PolygonSet::rectangle(bed.min, bed.max);
+        assert!(to_area(Line::ring(square(0.0, 10.0)), &area).is_empty());
+    }
+
+    #[test]
+    fn an_area_cuts_like_a_box() {
+        let bed = Bounds { min: dvec2(3.0, -1.0), max: dvec2(7.0, 20.0) };
+        let area = PolygonSet::rectangle(bed.min, bed.max);
+        let ring = Line::ring(square(0.0, 10.0));
+        let lengths =
+            |pieces: Vec<Line>| pieces.iter().map(|p| p.points[0].distance(p.points[1])).sum::<f64>();
+        assert_eq!(lengths(to_box(ring.clone(), bed)), 8.0);
+        assert_eq!(lengths(to_area(ring, &area)), 8.0);
+    }
+}

@@ -1,0 +1,338 @@
+//! The list of steps from models to G-code.
+//!
+//! Three phases. [`Job::new`] and [`Job::prepare`] work out what all layers share: placement, layer
+//! plan, base layers. [`Job::slice`] works a range of layers; an engine that does not hold the job
+//! gets a [`Share`] and does the same. [`Job::finish`] joins the layers in one pass.
+
+mod place;
+mod range;
+mod report;
+
+use std::fmt;
+
+use glam::DMat4;
+
+pub use place::{FitError, Placed, place_on_bed};
+pub use range::{PRINT_RESOLUTION, RangeMeta, RangePlan, RangeResult, Share};
+pub use report::{AdhesionReport, FilamentReport, ModelReport, Report, Timing, Warning};
+
+use crate::adhesion::{
+    AdhesionError, AdhesionKind, AdhesionWarning, FirstLayer, Foundation, RaftLayer, lay_foundation,
+};
+use crate::gcode::{FileNotes, GcodeError, Joined, LayerSummary, format_duration, join};
+use crate::mesh::LoadedModel;
+use crate::mesh::Mesh;
+use crate::polygon::measure::Bounds;
+use crate::polygon::{DVec2, PolygonSet};
+use crate::region::Path;
+use crate::region::first_layer::draw_in;
+use crate::settings::Settings;
+use crate::slice::heights::plan_layers;
+use crate::slice::{Axis, LayerSpec, slice_mesh};
+
+/// Milliseconds since some fixed moment; the core has no clock of its own.
+pub type Clock<'a> = &'a dyn Fn() -> f64;
+
+/// A model with the name it is known by, such as its file's.
+#[derive(Debug, Clone)]
+pub struct NamedModel {
+    /// Name without folders; it becomes part of the file name of the G-code.
+    pub name: String,
+    /// The checked mesh and what was found in it.
+    pub model: LoadedModel,
+}
+
+/// Why a job cannot be done.
+#[derive(Debug, Clone, PartialEq)]
+pub enum JobError {
+    /// The models do not fit the printer.
+    Fit(FitError),
+    /// Nothing to print: no model, or no model with a volume.
+    Empty,
+    /// Settings under `adhesion` that contradict each other.
+    Adhesion(AdhesionError),
+    /// A start or end code of the settings cannot be used.
+    Gcode(GcodeError),
+    /// [`Job::finish`] was called before this layer was added: a bug of the caller.
+    LayerMissing {
+        /// The first missing layer.
+        index: usize,
+    },
+}
+
+impl fmt::Display for JobError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            JobError::Fit(error) => error.fmt(f),
+            JobError::Empty => write!(f, "there is nothing to print"),
+            JobError::Adhesion(error) => error.fmt(f),
+            JobError::Gcode(error) => error.fmt(f),
+            JobError::LayerMissing { index } => write!(f, "layer {index} was never worked"),
+        }
+    }
+}
+
+impl std::error::Error for JobError {}
+
+/// A slicing job: models on the bed, settings and the layer plan.
+#[derive(Debug)]
+pub struct Job {
+    settings: Settings,
+    name: String,
+    mesh: Mesh,
+    /// Lowest and highest z of each triangle, so that a range finds its triangles in one pass.
+    spans: Vec<[f32; 2]>,
+    specs: Vec<LayerSpec>,
+    placements: Vec<DMat4>,
+    foundation: Vec<Vec<Path>>,
+    adhesion: AdhesionReport,
+    /// What is known of each layer so far.
+    layers: Vec<Option<LayerSummary>>,
+    warnings: Vec<Warning>,
+    timing: Timing,
+    started_ms: f64,
+}
+
+impl Job {
+    /// Places the models on the bed and plans the layers.
+    pub fn new(models: &[NamedModel], settings: Settings, clock: Clock) -> Result<Job, JobError> {
+        let started_ms = clock();
+        crate::gcode::check_templates(&settings.printer).map_err(JobError::Gcode)?;
+        let meshes: Vec<&Mesh> = models.iter().map(|m| &m.model.mesh).collect();
+        let Placed { mesh, placements } = place_on_bed(&meshes, &settings.printer).map_err(JobError::Fit)?;
+        let height = mesh.bounds().map_or(0.0, |b| f64::from(b.max.z));
+        if height <= 0.0 {
+            return Err(JobError::Empty);
+        }
+        let specs = plan_layers(height, &settings.layers);
+        let z_span = |t: usize| {
+            let [a, b, c] = mesh.corners(t).map(|v| v.z);
+            [a.min(b).min(c), a.max(b).max(c)]
+        };
+        Ok(Job {
+            name: models.first().map_or_else(String::new, |m| m.name.clone()),
+            spans: (0..mesh.triangles.len()).map(z_span).collect(),
+            layers: vec![None; specs.len()],
+            warnings: model_warnings(models),
+            foundation: Vec::new(),
+            adhesion: AdhesionReport::default(),
+            timing: Timing::default(),
+            settings,
+            mesh,
+            specs,
+            placements,
+            started_ms,
+        })
+    }
+
+    /// Number of layers; known after [`Job::prepare`].
+    pub fn layer_count(&self) -> usize {
+        self.specs.len()
+    }
+
+    /// The layer plan, from the bed up.
+    pub fn specs(&self) -> &[LayerSpec] {
+        &self.specs
+    }
+
+    /// All models in bed coordinates.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// The settings of the job.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Adds the time that reading the models took.
+    pub fn add_parse_time(&mut self, ms: f64) {
+        self.timing.parse += ms;
+    }
+
+    /// Works out what all layers share. To be called once, before any range; a raft adds layers.
+    pub fn prepare(&mut self, clock: Clock) -> Result<(), JobError> {
+        let started = clock();
+        let foundation = self.lay_foundation()?;
+        let kind = self.settings.adhesion.kind;
+        self.adhesion = AdhesionReport::new(kind, &foundation.figures, clock() - started);
+        self.timing.adhesion = clock() - started;
+        self.warnings.extend(foundation.warnings.iter().map(adhesion_warning));
+        if foundation.raft.is_empty() {
+            self.foundation = foundation.layers;
+        } else {
+            self.raise_on(foundation);
+        }
+        self.layers = vec![None; self.specs.len()];
+        Ok(())
+    }
+
+    /// What is laid around or below the part's first layer.
+    fn lay_foundation(&self) -> Result<Foundation, JobError> {
+        let Settings { adhesion, first_layer, layers, printer, .. } = &self.settings;
+        let bottom = slice_mesh(&self.mesh, Axis::Z, &[self.specs[0].slice_z], PRINT_RESOLUTION);
+        let section = bottom.into_iter().next().unwrap_or_default().area;
+        // On a raft nothing is squeezed against the bed.
+        let outline =
+            if adhesion.kind == AdhesionKind::Raft { section } else { draw_in(&section, first_layer) };
+        let first = FirstLayer {
+            outline: &outline,
+            supports: &PolygonSet::EMPTY,
+            bed: Bounds { min: DVec2::ZERO, max: DVec2::from_array(printer.bed_size) },
+            line_width: first_layer.line_width,
+            height: layers.first_height,
+            next_height: layers.height,
+        };
+        lay_foundation(&first, adhesion).map_err(JobError::Adhesion)
+    }
+
+    /// Puts the raft's layers below the part's.
+    fn raise_on(&mut self, foundation: Foundation) {
+        let count = foundation.raft.len() as u32;
+        let raise = |spec: &LayerSpec| LayerSpec {
+            index: spec.index + count,
+            print_z: spec.print_z + foundation.lift,
+            ..*spec
+        };
+        let raised: Vec<LayerSpec> = self.specs.iter().map(raise).collect();
+        let mut print_z = 0.0;
+        let mut spec_of = |(index, layer): (u32, &RaftLayer)| {
+            print_z += layer.height;
+            // Cut below the part, where nothing is met.
+            LayerSpec { index, slice_z: f64::from(index) - f64::from(count), print_z, height: layer.height }
+        };
+        self.specs = (0..).zip(&foundation.raft).map(&mut spec_of).collect();
+        self.specs.extend(raised);
+        self.foundation = foundation.raft.into_iter().map(|layer| layer.paths).collect();
+    }
+
+    /// The layers `first..last` as a piece of work for another engine.
+    pub fn share(&self, first: usize, last: usize) -> Share {
+        let plan = self.plan(first, last);
+        let triangles: Vec<u32> = self.triangles_of(&plan).collect();
+        Share::new(plan, &self.mesh, &triangles)
+    }
+
+    /// Works the layers `first..last`.
+    pub fn slice(&self, first: usize, last: usize, clock: Clock) -> RangeResult {
+        let plan = self.plan(first, last);
+        let triangles: Vec<u32> = self.triangles_of(&plan).collect();
+        range::slice_range(&plan, &self.mesh, triangles.iter().copied(), clock)
+    }
+
+    fn plan(&self, first: usize, last: usize) -> RangePlan {
+        let halo = range::SkinNeighbours::of(&self.settings);
+        let low = first.saturating_sub(halo.below);
+        let high = (last + halo.above).min(self.specs.len());
+        RangePlan {
+            settings: self.settings.clone(),
+            specs: self.specs[low..high].to_vec(),
+            first: first - low,
+            last: last - low,
+            foundation: if first < self.foundation.len() { self.foundation.clone() } else { Vec::new() },
+        }
+    }
+
+    /// Triangles that cross a plane of the plan, in mesh order.
+    fn triangles_of(&self, plan: &RangePlan) -> impl Iterator<Item = u32> {
+        let planes = plan.specs.first().zip(plan.specs.last());
+        let (low, high) = planes.map_or((0.0, 0.0), |(a, b)| (a.slice_z, b.slice_z));
+        let crosses = move |[bottom, top]: [f32; 2]| f64::from(bottom) < high && f64::from(top) >= low;
+        (0u32..).zip(&self.spans).filter(move |(_, span)| crosses(**span)).map(|(t, _)| t)
+    }
+
+    /// Takes in the figures of a worked range.
+    pub fn add(&mut self, meta: RangeMeta) {
+        self.timing.add(&meta.timing);
+        self.warnings.extend(meta.warnings);
+        for summary in meta.summaries {
+            let place = summary.index as usize;
+            self.layers[place] = Some(summary);
+        }
+    }
+
+    /// Joins the layers, all of which must have been added.
+    pub fn finish(mut self, clock: Clock) -> Result<Finished, JobError> {
+        let missing = |index: usize| move || JobError::LayerMissing { index };
+        let take =
+            |(index, layer): (usize, &mut Option<LayerSummary>)| layer.take().ok_or_else(missing(index));
+        let summaries: Vec<LayerSummary> =
+            self.layers.iter_mut().enumerate().map(take).collect::<Result<_, _>>()?;
+        let started = clock();
+        let notes = FileNotes { head: &[], settings: &self.settings.lines() };
+        let joined = join(&summaries, &self.settings.gcode_options(), &notes).map_err(JobError::Gcode)?;
+        self.timing.gcode += clock() - started;
+        self.timing.total = clock() - self.started_ms + self.timing.parse;
+        self.warnings.sort_by_key(|w| w.layer);
+        let report = self.report(&joined);
+        let file_name = self.file_name(report.time_s);
+        Ok(Finished { joined, report, file_name })
+    }
+
+    fn report(&self, joined: &Joined) -> Report {
+        let rows = |m: &DMat4| m.transpose().to_cols_array_2d();
+        let placements: Vec<[[f64; 4]; 4]> = self.placements.iter().map(rows).collect();
+        let bounds =
+            self.mesh.bounds().map_or([[0.0; 3]; 2], |b| [b.min, b.max].map(|v| v.as_dvec3().to_array()));
+        let totals = &joined.totals;
+        Report {
+            engine: engine_name(),
+            model: ModelReport {
+                triangles: self.mesh.triangles.len(),
+                bounds,
+                volume_mm3: self.mesh.volume(),
+            },
+            placement: placements.first().copied().unwrap_or_default(),
+            placements,
+            layers: self.specs.len(),
+            filament: FilamentReport {
+                length_mm: totals.filament_mm,
+                volume_mm3: totals.volume_mm3,
+                mass_g: totals.mass_g,
+                cost: totals.cost,
+            },
+            time_s: totals.time_s,
+            by_role: totals.by_role.clone(),
+            adhesion: self.adhesion.timed(&totals.by_role),
+            timing_ms: self.timing,
+            warnings: self.warnings.clone(),
+        }
+    }
+
+    /// `<model>_<layer height>mm_<material>_<time>.gcode`.
+    fn file_name(&self, time_s: f64) -> String {
+        let Settings { layers, filament, .. } = &self.settings;
+        let time = format_duration(time_s).replace(' ', "");
+        format!("{}_{}mm_{}_{}.gcode", self.name, layers.height, filament.material, time)
+    }
+}
+
+/// A joined job.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finished {
+    /// The text between the layers, and how it and the layers' texts make the file.
+    pub joined: Joined,
+    /// The figures.
+    pub report: Report,
+    /// A name for the file.
+    pub file_name: String,
+}
+
+/// Name and version of this engine.
+pub fn engine_name() -> String {
+    format!("Foothold {}", env!("CARGO_PKG_VERSION"))
+}
+
+fn model_warnings(models: &[NamedModel]) -> Vec<Warning> {
+    let of_model = |m: &NamedModel| {
+        let found = m.model.inspection.warnings.iter();
+        let named = |w: &crate::mesh::Warning| Warning::on_job(w.code, format!("{}: {}", m.name, w.message));
+        found.map(named).collect::<Vec<_>>()
+    };
+    models.iter().flat_map(of_model).collect()
+}
+
+fn adhesion_warning(found: &AdhesionWarning) -> Warning {
+    let at = found.at.map(|p| p.to_array());
+    Warning { code: found.code.name().to_owned(), message: found.message.clone(), layer: Some(0), at }
+}

@@ -1,0 +1,231 @@
+//! A range of layers from mesh to G-code. Any engine can do any range; equal layers come out equal
+//! whoever made them.
+
+use serde::{Deserialize, Serialize};
+
+use super::Clock;
+use super::report::{Timing, Warning};
+use crate::gcode::{LayerInput, LayerSummary, layer_gcode};
+use crate::mesh::Mesh;
+use crate::polygon::PolygonSet;
+use crate::region::first_layer::draw_in;
+use crate::region::shell::{Exposure, Shells, divide, exposure, hair_of_walls};
+use crate::region::{Path, Role};
+use crate::settings::Settings;
+use crate::slice::{Axis, LayerSpec, Section, slice_triangles};
+use crate::toolpath::infill::{fill_solid, fill_sparse};
+use crate::toolpath::medial::{ThinFill, fill_thin};
+use crate::toolpath::seam::start_at_seam;
+use crate::toolpath::walls::lay_walls;
+use crate::toolpath::{Bead, LayerParts, LayerPaths, order_layer};
+
+/// By how much a contour may be simplified for printing, mm: an eighth of what a printer's
+/// positioning resolves.
+pub const PRINT_RESOLUTION: f64 = 0.0125;
+
+/// What a range needs to know besides its triangles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RangePlan {
+    /// All settings.
+    pub settings: Settings,
+    /// The layers to print and the neighbours that decide about their skins.
+    pub specs: Vec<LayerSpec>,
+    /// Place in `specs` of the first layer to print.
+    pub first: usize,
+    /// Place in `specs` after the last layer to print.
+    pub last: usize,
+    /// Paths of the base layers by layer index; printed before the part's.
+    pub foundation: Vec<Vec<Path>>,
+}
+
+/// A range made ready for an engine that does not hold the job.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Share {
+    plan: RangePlan,
+    vertices: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl Share {
+    /// The plan with those triangles of the mesh, in mesh order, that its planes cross.
+    pub fn new(plan: RangePlan, mesh: &Mesh, triangles: &[u32]) -> Share {
+        let mut new_index = vec![u32::MAX; mesh.vertices.len()];
+        let mut vertices = Vec::new();
+        let mut renumber = |old: u32| {
+            let place = &mut new_index[old as usize];
+            if *place == u32::MAX {
+                *place = vertices.len() as u32;
+                vertices.push(mesh.vertices[old as usize].to_array());
+            }
+            *place
+        };
+        let triangles = triangles.iter().map(|&t| mesh.triangles[t as usize].map(&mut renumber)).collect();
+        Share { plan, vertices, triangles }
+    }
+
+    /// Works the range.
+    pub fn slice(self, clock: Clock) -> RangeResult {
+        let vertices = self.vertices.into_iter().map(glam::Vec3::from_array).collect();
+        let mesh = Mesh { vertices, triangles: self.triangles };
+        slice_range(&self.plan, &mesh, 0..mesh.triangles.len() as u32, clock)
+    }
+}
+
+/// The G-code of a range of layers.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RangeResult {
+    /// Text of each layer.
+    pub texts: Vec<Vec<u8>>,
+    /// Everything else.
+    pub meta: RangeMeta,
+}
+
+/// What the join needs of a range; small.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct RangeMeta {
+    /// Figures of each layer.
+    pub summaries: Vec<LayerSummary>,
+    /// Remarks on these layers.
+    pub warnings: Vec<Warning>,
+    /// Where the time went.
+    pub timing: Timing,
+}
+
+/// Works the layers `plan.first..plan.last` from the given triangles, which must hold all that
+/// cross the planes of `plan.specs`, in mesh order.
+pub(super) fn slice_range(
+    plan: &RangePlan,
+    mesh: &Mesh,
+    triangles: impl Iterator<Item = u32> + Clone,
+    clock: Clock,
+) -> RangeResult {
+    let mut result = RangeResult::default();
+    let started = clock();
+    let heights: Vec<f64> = plan.specs.iter().map(|s| s.slice_z).collect();
+    let sections = slice_triangles(mesh, triangles, Axis::Z, &heights, PRINT_RESOLUTION);
+    result.meta.warnings = gap_warnings(plan, &sections);
+    let areas: Vec<PolygonSet> = sections.into_iter().map(|s| s.area).collect();
+    let sliced = clock();
+    let exposures = expose(plan, &areas);
+    let exposed = clock();
+    result.meta.timing.slice = sliced - started;
+    result.meta.timing.regions = exposed - sliced;
+    let printed = areas.iter().enumerate().take(plan.last).skip(plan.first);
+    for (place, area) in printed {
+        let paths = lay_paths(plan, place, area, &exposures, &mut result.meta, clock);
+        let before = clock();
+        let spec = &plan.specs[place];
+        let input = LayerInput {
+            index: spec.index,
+            print_z: spec.print_z,
+            height: spec.height,
+            paths: &paths.paths,
+            crosses_outline: &paths.crosses_outline,
+        };
+        let written = layer_gcode(&input, &plan.settings.gcode_options());
+        result.texts.push(written.text);
+        result.meta.summaries.push(written.summary);
+        result.meta.timing.gcode += clock() - before;
+    }
+    result
+}
+
+/// One warning for each printed layer whose contours had to be closed, with its widest opening.
+fn gap_warnings(plan: &RangePlan, sections: &[Section]) -> Vec<Warning> {
+    let printed = plan.specs[plan.first..plan.last].iter().zip(&sections[plan.first..plan.last]);
+    let worst = |section: &Section| section.gaps.iter().copied().max_by(|a, b| a.length.total_cmp(&b.length));
+    let warn = |(spec, section): (&LayerSpec, &Section)| {
+        let gap = worst(section)?;
+        let message = format!(
+            "the mesh is open here: {} gap(s) in the outline closed by straight lines, the widest {:.2} mm",
+            section.gaps.len(),
+            gap.length
+        );
+        Some(Warning::on_layer("gap_closed", message, spec.index, gap.at))
+    };
+    printed.filter_map(warn).collect()
+}
+
+/// Skins need not follow the outline closer than this, mm: a tenth of a bead.
+const SKIN_RESOLUTION: f64 = 0.04;
+
+/// Bare tops and bottoms of every layer that has its neighbours at hand.
+fn expose(plan: &RangePlan, areas: &[PolygonSet]) -> Vec<Exposure> {
+    let SkinNeighbours { above, below } = SkinNeighbours::of(&plan.settings);
+    let walls = &plan.settings.walls;
+    let hair = hair_of_walls(walls.width * f64::from(walls.count), above.max(below) as u32);
+    let hair = hair.min(walls.width / 2.0);
+    let rough: Vec<PolygonSet> = areas.iter().map(|a| a.roughened(SKIN_RESOLUTION.min(hair / 2.0))).collect();
+    let low = plan.first.saturating_sub(below.saturating_sub(1));
+    let high = (plan.last + above.saturating_sub(1)).min(areas.len());
+    let expose_at = |i: usize| match (low..high).contains(&i) {
+        true => exposure(i.checked_sub(1).map(|b| &rough[b]), &rough[i], rough.get(i + 1), hair),
+        false => Exposure::default(),
+    };
+    (0..areas.len()).map(expose_at).collect()
+}
+
+/// How many layers above and below a layer decide about its skins.
+pub(super) struct SkinNeighbours {
+    pub above: usize,
+    pub below: usize,
+}
+
+impl SkinNeighbours {
+    pub(super) fn of(settings: &Settings) -> SkinNeighbours {
+        let skin = &settings.skin;
+        SkinNeighbours { above: skin.top_layers as usize, below: skin.bottom_layers as usize }
+    }
+}
+
+/// Walls, fills and foundation of one layer, in printing order.
+fn lay_paths(
+    plan: &RangePlan,
+    place: usize,
+    area: &PolygonSet,
+    exposures: &[Exposure],
+    meta: &mut RangeMeta,
+    clock: Clock,
+) -> LayerPaths {
+    let started = clock();
+    let (settings, spec) = (&plan.settings, &plan.specs[place]);
+    let is_first = spec.index == 0;
+    // On a raft layer 0 holds nothing of the part, and its area is empty.
+    let outline = if is_first { draw_in(area, &settings.first_layer) } else { area.clone() };
+    let width = if is_first { settings.first_layer.line_width } else { settings.walls.width };
+    let bead = Bead { width, height: spec.height };
+    let walls = lay_walls(&outline, bead, settings.walls.count);
+
+    let before_regions = clock();
+    let SkinNeighbours { above, below } = SkinNeighbours::of(settings);
+    let tops: Vec<&PolygonSet> = exposures[place..].iter().take(above).map(|e| &e.top).collect();
+    let bottoms: Vec<&PolygonSet> = exposures[..=place].iter().rev().take(below).map(|e| &e.bottom).collect();
+    let all_solid = settings.infill.density >= 1.0;
+    let regions = divide(&walls.inner, &Shells { tops: &tops, bottoms: &bottoms }, width, all_solid);
+    let after_regions = clock();
+
+    let mut parts = LayerParts { walls: walls.loops, ..LayerParts::default() };
+    parts.foundation = plan.foundation.get(spec.index as usize).cloned().unwrap_or_default();
+    let mut thin = vec![(Role::OuterWall, walls.thin_outer), (Role::GapFill, walls.thin_inner)];
+    for region in regions {
+        if region.role == Role::Infill {
+            parts.fills.extend(fill_sparse(&region.area, bead, spec.index, &settings.infill));
+        } else {
+            let (paths, narrow) = fill_solid(&region.area, region.role, bead, spec.index);
+            parts.fills.extend(paths);
+            thin.push((Role::GapFill, narrow));
+        }
+    }
+    for (role, area) in thin {
+        parts
+            .fills
+            .extend(fill_thin(&area, &ThinFill::for_nozzle(settings.printer.nozzle_diameter, role)).paths);
+    }
+    for (_, path) in &mut parts.walls {
+        start_at_seam(&mut path.points, settings.seam.position);
+    }
+    let ordered = order_layer(parts, &outline);
+    meta.timing.regions += after_regions - before_regions;
+    meta.timing.toolpath += clock() - after_regions + before_regions - started;
+    ordered
+}

@@ -1,0 +1,209 @@
+//! All settings: one options struct per stage, nested as users write them.
+
+use std::fmt;
+
+use serde_json::{Map, Value};
+
+use crate::adhesion::AdhesionOptions;
+use crate::gcode::{FilamentOptions, GcodeOptions, PrinterOptions, RetractionOptions, SpeedOptions};
+use crate::options::{Checked, OutOfRange, join_path};
+use crate::region::first_layer::FirstLayerOptions;
+use crate::region::shell::SkinOptions;
+use crate::slice::LayerOptions;
+use crate::toolpath::infill::InfillOptions;
+use crate::toolpath::seam::SeamOptions;
+use crate::toolpath::walls::WallOptions;
+
+crate::options! {
+    /// Everything a person can choose.
+    pub struct Settings {
+        /// The machine.
+        printer: group PrinterOptions;
+        /// The material.
+        filament: group FilamentOptions;
+        /// Heights of the layers.
+        layers: group LayerOptions;
+        /// What is different on the first layer.
+        first_layer: group FirstLayerOptions;
+        /// Loops along every outline.
+        walls: group WallOptions;
+        /// Solid tops and bottoms.
+        skin: group SkinOptions;
+        /// What fills the inside.
+        infill: group InfillOptions;
+        /// Where loops start.
+        seam: group SeamOptions;
+        /// What holds the part on the bed.
+        adhesion: group AdhesionOptions;
+        /// Speeds by role.
+        speed: group SpeedOptions;
+        /// Pulling the filament back for travels.
+        retraction: group RetractionOptions;
+    }
+}
+
+/// Why settings could not be used. Each message names the setting's path.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SettingsError {
+    /// A settings file is not JSON.
+    NotJson {
+        /// What the JSON parser said, with line and column.
+        cause: String,
+    },
+    /// A `path=value` without `=`.
+    NotAnAssignment {
+        /// The text found.
+        text: String,
+    },
+    /// No setting has this path.
+    Unknown {
+        /// The path as given.
+        path: String,
+    },
+    /// The value has the wrong type or is not among the choices.
+    Wrong {
+        /// The setting's path.
+        path: String,
+        /// What is wrong with it.
+        cause: String,
+    },
+    /// The value is out of its range.
+    OutOfRange(OutOfRange),
+}
+
+impl fmt::Display for SettingsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SettingsError::NotJson { cause } => write!(f, "settings are not JSON: {cause}"),
+            SettingsError::NotAnAssignment { text } => write!(f, "{text}: expected path=value"),
+            SettingsError::Unknown { path } => write!(f, "{path}: there is no such setting"),
+            SettingsError::Wrong { path, cause } => write!(f, "{path}: {cause}"),
+            SettingsError::OutOfRange(found) => found.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for SettingsError {}
+
+impl Settings {
+    /// Defaults, changed by JSON texts in turn (each may hold any part of the settings), then by
+    /// assignments such as `walls.count=2`. A value in an assignment is JSON, else a plain word.
+    pub fn resolve<'a>(
+        files: impl IntoIterator<Item = &'a str>,
+        assignments: impl IntoIterator<Item = &'a str>,
+    ) -> Result<Settings, SettingsError> {
+        let mut tree = to_tree(&Settings::default());
+        for text in files {
+            let found =
+                serde_json::from_str(text).map_err(|e| SettingsError::NotJson { cause: e.to_string() })?;
+            overlay(&mut tree, found, "")?;
+        }
+        for assignment in assignments {
+            let nested = parse_assignment(assignment)?;
+            overlay(&mut tree, nested, "")?;
+        }
+        let settings: Settings = serde_path_to_error::deserialize(tree)
+            .map_err(|e| SettingsError::Wrong { path: e.path().to_string(), cause: e.inner().to_string() })?;
+        settings.check("").map_err(SettingsError::OutOfRange)?;
+        Ok(settings)
+    }
+
+    /// The settings as JSON.
+    pub fn to_json(&self) -> String {
+        to_tree(self).to_string()
+    }
+
+    /// Every setting as its path and its value in JSON (words without quotes), sorted by path.
+    pub fn lines(&self) -> Vec<(String, String)> {
+        let mut lines = Vec::new();
+        flatten(&to_tree(self), "", &mut lines);
+        lines
+    }
+
+    /// What the G-code stage needs.
+    pub fn gcode_options(&self) -> GcodeOptions {
+        GcodeOptions {
+            printer: self.printer.clone(),
+            filament: self.filament.clone(),
+            speed: self.speed.clone(),
+            retraction: self.retraction.clone(),
+            first_layer_speed: self.first_layer.speed,
+        }
+    }
+}
+
+fn to_tree(settings: &Settings) -> Value {
+    // Option structs hold numbers, words and lists of them under string keys: always JSON.
+    serde_json::to_value(settings).unwrap_or_default()
+}
+
+/// `a.b=1` as `{"a": {"b": 1}}`.
+fn parse_assignment(text: &str) -> Result<Value, SettingsError> {
+    let Some((path, value)) = text.split_once('=') else {
+        return Err(SettingsError::NotAnAssignment { text: text.to_owned() });
+    };
+    let value = serde_json::from_str(value).unwrap_or_else(|_| Value::String(value.to_owned()));
+    let nest = |inner, key: &str| Value::Object(Map::from_iter([(key.to_owned(), inner)]));
+    Ok(path.rsplit('.').fold(value, nest))
+}
+
+/// Puts `change` over `tree`; every key of an object must be there already.
+fn overlay(tree: &mut Value, change: Value, path: &str) -> Result<(), SettingsError> {
+    match (tree, change) {
+        (Value::Object(old), Value::Object(new)) => new.into_iter().try_for_each(|(key, value)| {
+            let path = join_path(path, &key);
+            match old.get_mut(&key) {
+                Some(place) => overlay(place, value, &path),
+                None => Err(SettingsError::Unknown { path }),
+            }
+        }),
+        (Value::Object(_), other) => Err(SettingsError::Wrong {
+            path: path.to_owned(),
+            cause: format!("expected a group of settings, found {other}"),
+        }),
+        (place, value) => {
+            *place = value;
+            Ok(())
+        }
+    }
+}
+
+fn flatten(tree: &Value, path: &str, lines: &mut Vec<(String, String)>) {
+    match tree {
+        Value::Object(map) => {
+            map.iter().for_each(|(key, value)| flatten(value, &join_path(path, key), lines))
+        }
+        Value::String(word) => lines.push((path.to_owned(), word.replace('\n', "\\n"))),
+        other => lines.push((path.to_owned(), other.to_string())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn error(files: &[&str], sets: &[&str]) -> String {
+        Settings::resolve(files.iter().copied(), sets.iter().copied()).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn later_changes_win_and_the_rest_stays_at_its_default() {
+        let files = [r#"{"walls": {"count": 4, "width": 0.5}}"#, r#"{"walls": {"count": 5}}"#];
+        let found = Settings::resolve(files, ["infill.density=0.3", "infill.pattern=lines"]).unwrap();
+        assert_eq!((found.walls.count, found.walls.width), (5, 0.5));
+        assert_eq!(found.infill.density, 0.3);
+        assert_eq!(found.layers, Settings::default().layers);
+        assert_eq!(Settings::resolve([found.to_json().as_str()], []).unwrap(), found);
+    }
+
+    #[test]
+    fn what_is_wrong_is_named_by_its_path() {
+        assert_eq!(error(&[], &["walls.cuont=2"]), "walls.cuont: there is no such setting");
+        assert_eq!(error(&[], &["walls.width=9"]), "walls.width: 9 is outside 0.1 to 2 mm");
+        assert!(error(&[], &["walls.count=2.5"]).starts_with("walls.count: invalid type"));
+        assert!(error(&[], &["infill.pattern=zigzag"]).starts_with("infill.pattern: unknown variant"));
+        assert_eq!(error(&[], &["walls=2"]), "walls: expected a group of settings, found 2");
+        assert_eq!(error(&[], &["walls.count"]), "walls.count: expected path=value");
+        assert!(error(&["{"], &[]).starts_with("settings are not JSON"));
+    }
+}

@@ -1,0 +1,81 @@
+//! Pictures of a job that has not been sliced yet.
+
+use std::fmt;
+
+use super::scene::Scene;
+use crate::gcode::read;
+use crate::pipeline::{Clock, Job};
+use crate::polygon::measure::Bounds;
+use crate::polygon::{DVec2, dvec2};
+use crate::slice::{Axis, slice_mesh};
+
+/// A plane that cannot be drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PlaneError {
+    /// Not of the form `x=NUMBER` or `y=NUMBER`.
+    NotAPlane {
+        /// The text found.
+        text: String,
+    },
+    /// The plane does not meet the part.
+    Beside {
+        /// The plane.
+        text: String,
+        /// Where the part is along the plane's normal, mm.
+        low: f32,
+        /// The other end, mm.
+        high: f32,
+    },
+}
+
+impl fmt::Display for PlaneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            PlaneError::NotAPlane { text } => write!(f, "{text}: expected a plane such as y=12.5"),
+            PlaneError::Beside { text, low, high } => {
+                write!(f, "{text}: the part reaches from {low} to {high} mm on the bed")
+            }
+        }
+    }
+}
+
+impl std::error::Error for PlaneError {}
+
+impl Scene {
+    /// Layer `index` of the job, sliced for this picture alone, with the outline it was made from;
+    /// `None` if there is no such layer.
+    pub fn of_job_layer(job: &Job, index: usize, clock: Clock) -> Option<Scene> {
+        let spec = job.specs().get(index)?;
+        let sliced = job.slice(index, index + 1, clock);
+        let mut file = read::read(sliced.texts.first()?, job.settings().filament.diameter);
+        let layer = file.layers.pop().unwrap_or(file.prelude);
+        let section = slice_mesh(job.mesh(), Axis::Z, &[spec.slice_z], 0.0).pop()?;
+        let [width, depth] = job.settings().printer.bed_size;
+        let bed = Bounds { min: DVec2::ZERO, max: dvec2(width, depth) };
+        Some(Scene::of_layer(&layer, bed, Some(&section.area)))
+    }
+
+    /// The section of the job's parts by a vertical plane such as `y=12.5`, in bed coordinates.
+    pub fn of_job_plane(job: &Job, plane: &str) -> Result<Scene, PlaneError> {
+        let (axis, at) =
+            parse_plane(plane).ok_or_else(|| PlaneError::NotAPlane { text: plane.to_owned() })?;
+        let area = slice_mesh(job.mesh(), axis, &[at], 0.0).pop().unwrap_or_default().area;
+        match job.mesh().bounds() {
+            Some(b) if area.is_empty() => {
+                let (low, high) = (axis.height(b.min), axis.height(b.max));
+                Err(PlaneError::Beside { text: plane.to_owned(), low, high })
+            }
+            _ => Ok(Scene::of_section(&area)),
+        }
+    }
+}
+
+fn parse_plane(text: &str) -> Option<(Axis, f64)> {
+    let (name, at) = text.split_once('=')?;
+    let axis = match name.trim() {
+        "x" => Axis::X,
+        "y" => Axis::Y,
+        _ => return None,
+    };
+    at.trim().parse().ok().filter(|at: &f64| at.is_finite()).map(|at| (axis, at))
+}

@@ -1,0 +1,69 @@
+//! Errors and settings between Rust and JavaScript.
+
+use std::fmt::Display;
+
+use js_sys::Error;
+use wasm_bindgen::prelude::*;
+
+use crate::mesh::StlError;
+use crate::pipeline::JobError;
+use crate::settings::{Settings, SettingsError};
+
+/// A JavaScript error on its way out.
+#[derive(Debug)]
+pub struct Thrown(Error);
+
+impl From<Thrown> for JsValue {
+    fn from(thrown: Thrown) -> JsValue {
+        thrown.0.into()
+    }
+}
+
+fn thrown(name: &str, cause: impl Display) -> Thrown {
+    let error = Error::new(&cause.to_string());
+    error.set_name(name);
+    Thrown(error)
+}
+
+/// A file that cannot be read or used.
+pub(super) fn model_error(cause: StlError) -> Thrown {
+    thrown("ModelError", cause)
+}
+
+/// Settings that cannot be used.
+pub(super) fn settings_error(cause: SettingsError) -> Thrown {
+    thrown("SettingsError", cause)
+}
+
+/// A wrong argument from the page or the command line.
+pub(super) fn usage_error(cause: impl Display) -> Thrown {
+    thrown("UsageError", cause)
+}
+
+/// A fault of this program.
+pub(super) fn internal_error(cause: impl Display) -> Thrown {
+    thrown("InternalError", cause)
+}
+
+/// A job that cannot be done.
+pub(super) fn job_error(cause: JobError) -> Thrown {
+    let name = match cause {
+        JobError::Fit(_) => "FitError",
+        JobError::Empty => "ModelError",
+        JobError::Gcode(_) | JobError::Adhesion(_) => "SettingsError",
+        JobError::LayerMissing { .. } => "InternalError",
+    };
+    thrown(name, cause)
+}
+
+/// Settings from JSON.
+pub(super) fn settings_from(json: &str) -> Result<Settings, Thrown> {
+    Settings::resolve([json], []).map_err(settings_error)
+}
+
+#[wasm_bindgen]
+extern "C" {
+    /// The engine's clock, ms; windows, workers and Node have it.
+    #[wasm_bindgen(js_namespace = performance)]
+    pub(super) fn now() -> f64;
+}

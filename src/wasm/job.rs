@@ -1,0 +1,162 @@
+//! One slicing job and its ranges of layers.
+
+use wasm_bindgen::prelude::*;
+
+use super::convert::{Thrown, internal_error, job_error, now, settings_from, usage_error};
+use super::model::Model;
+use crate::gcode::Piece;
+use crate::pipeline::{self, Finished, NamedModel, RangeMeta, RangeResult, Share};
+use crate::view::Scene;
+
+/// One slicing job; lives in the lead engine.
+#[wasm_bindgen]
+pub struct Job {
+    /// Gone once the job is finished.
+    inner: Option<pipeline::Job>,
+}
+
+#[wasm_bindgen]
+impl Job {
+    /// Takes the models over, places them on the bed and plans the layers; `names` are the models'
+    /// file names without ending, `settings` is JSON. Throws a `SettingsError` or a `FitError`.
+    #[wasm_bindgen(constructor)]
+    pub fn new(models: Vec<Model>, names: Vec<String>, settings: &str) -> Result<Job, Thrown> {
+        let settings = settings_from(settings)?;
+        let parse_ms: f64 = models.iter().map(|m| m.parse_ms).sum();
+        let named = models.into_iter().zip(names).map(|(m, name)| NamedModel { name, model: m.inner });
+        let named: Vec<NamedModel> = named.collect();
+        let mut inner = pipeline::Job::new(&named, settings, &now).map_err(job_error)?;
+        inner.add_parse_time(parse_ms);
+        Ok(Job { inner: Some(inner) })
+    }
+
+    /// Number of layers.
+    pub fn layer_count(&self) -> Result<usize, Thrown> {
+        Ok(self.inner()?.layer_count())
+    }
+
+    /// Works out what all layers share; once, before any range.
+    pub fn prepare(&mut self) -> Result<(), Thrown> {
+        self.inner_mut()?.prepare(&now).map_err(job_error)
+    }
+
+    /// The layers `first..last` as bytes for `slice_share` in another engine.
+    pub fn share(&self, first: usize, last: usize) -> Result<Vec<u8>, Thrown> {
+        postcard::to_allocvec(&self.inner()?.share(first, last)).map_err(internal_error)
+    }
+
+    /// Works the layers `first..last` here.
+    pub fn slice(&self, first: usize, last: usize) -> Result<Chunk, Thrown> {
+        Chunk::new(self.inner()?.slice(first, last, &now))
+    }
+
+    /// Takes in the figures of a worked range, in any order.
+    pub fn add(&mut self, meta: &[u8]) -> Result<(), Thrown> {
+        let meta: RangeMeta = postcard::from_bytes(meta).map_err(internal_error)?;
+        self.inner_mut()?.add(meta);
+        Ok(())
+    }
+
+    /// Joins the layers, all of which must have been added. The job is over then.
+    pub fn finish(&mut self) -> Result<JobResult, Thrown> {
+        let job = self.inner.take().ok_or_else(|| internal_error("the job is over"))?;
+        Ok(JobResult { inner: job.finish(&now).map_err(job_error)? })
+    }
+
+    /// One layer as an SVG picture.
+    pub fn draw_layer(&self, layer: usize) -> Result<String, Thrown> {
+        let job = self.inner()?;
+        let last = job.layer_count() - 1;
+        let scene = Scene::of_job_layer(job, layer, &now);
+        Ok(scene.ok_or_else(|| usage_error(format!("layer {layer}: there are layers 0 to {last}")))?.to_svg())
+    }
+
+    /// A vertical plane such as `y=12.5`, mm in bed coordinates, as an SVG picture.
+    pub fn draw_plane(&self, plane: &str) -> Result<String, Thrown> {
+        Ok(Scene::of_job_plane(self.inner()?, plane).map_err(usage_error)?.to_svg())
+    }
+
+    fn inner(&self) -> Result<&pipeline::Job, Thrown> {
+        self.inner.as_ref().ok_or_else(|| internal_error("the job is over"))
+    }
+
+    fn inner_mut(&mut self) -> Result<&mut pipeline::Job, Thrown> {
+        self.inner.as_mut().ok_or_else(|| internal_error("the job is over"))
+    }
+}
+
+/// Works a range that another engine shared.
+#[wasm_bindgen]
+pub(super) fn slice_share(share: &[u8]) -> Result<Chunk, Thrown> {
+    let share: Share = postcard::from_bytes(share).map_err(internal_error)?;
+    Chunk::new(share.slice(&now))
+}
+
+/// The G-code of a range of layers.
+#[wasm_bindgen]
+pub struct Chunk {
+    meta: Vec<u8>,
+    text: Vec<u8>,
+    offsets: Vec<u32>,
+}
+
+impl Chunk {
+    fn new(result: RangeResult) -> Result<Chunk, Thrown> {
+        let meta = postcard::to_allocvec(&result.meta).map_err(internal_error)?;
+        let ends = result.texts.iter().scan(0, |end, text| {
+            *end += text.len() as u32;
+            Some(*end)
+        });
+        let offsets = std::iter::once(0).chain(ends).collect();
+        Ok(Chunk { meta, text: result.texts.concat(), offsets })
+    }
+}
+
+#[wasm_bindgen]
+impl Chunk {
+    /// Figures for [`Job::add`].
+    pub fn meta(&self) -> Vec<u8> {
+        self.meta.clone()
+    }
+
+    /// Text of all layers, one after another; handed over, so only the first call has it.
+    pub fn text(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.text)
+    }
+
+    /// Layer i of the range is `text[offsets[i]..offsets[i + 1]]`, bytes.
+    pub fn layer_offsets(&self) -> Vec<u32> {
+        self.offsets.clone()
+    }
+}
+
+/// A joined job.
+#[wasm_bindgen(js_name = Result)]
+pub struct JobResult {
+    inner: Finished,
+}
+
+#[wasm_bindgen(js_class = Result)]
+impl JobResult {
+    /// The report, as JSON (`Report`).
+    pub fn report(&self) -> Result<String, Thrown> {
+        serde_json::to_string(&self.inner.report).map_err(internal_error)
+    }
+
+    /// A name for the file.
+    pub fn file_name(&self) -> String {
+        self.inner.file_name.clone()
+    }
+
+    /// All text that is in no layer.
+    pub fn glue(&self) -> Vec<u8> {
+        self.inner.joined.glue.clone()
+    }
+
+    /// The file as triples (source, from, to): source 0 is the glue, source k + 1 the text of layer
+    /// k; from and to are byte offsets.
+    pub fn pieces(&self) -> Vec<u32> {
+        let triple = |p: &Piece| [p.layer.map_or(0, |k| k + 1), p.start, p.end];
+        self.inner.joined.pieces.iter().flat_map(triple).collect()
+    }
+}

@@ -1,0 +1,93 @@
+// For everyone: no findings of axe in any state, and the whole way by keyboard alone.
+import { writeFileSync } from 'node:fs';
+import AxeBuilder from '@axe-core/playwright';
+import type { Page } from '@playwright/test';
+import { binaryStl, box } from '../node/shapes.ts';
+import { downloadButton, expect, layerSlider, openFile, picture, ready, settled, sliceButton, test } from './page.ts';
+
+async function noFindings(page: Page, state: string): Promise<void> {
+  const { violations } = await new AxeBuilder({ page }).analyze();
+  const found = violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`);
+  expect(found, state).toEqual([]);
+}
+
+for (const colorScheme of ['light', 'dark'] as const) {
+  test(`axe finds nothing, ${colorScheme}`, async ({ page }, info) => {
+    await page.emulateMedia({ colorScheme });
+    await ready(page);
+    await noFindings(page, 'layers');
+    await page.getByText('All settings').click();
+    for (const group of await page.locator('details.group > summary').all()) await group.click();
+    await page.getByLabel('Walls', { exact: true }).first().fill('4');
+    await page.getByLabel('Layer height').first().fill('90');
+    await page.getByLabel('Layer height').first().press('Tab');
+    await noFindings(page, 'all settings, a fault, a stale result');
+    await page.getByRole('button', { name: 'Model', exact: true }).click();
+    await noFindings(page, 'model');
+    const cut = info.outputPath('cut.stl');
+    writeFileSync(cut, binaryStl(box(20, 20, 20), 120));
+    await openFile(page, cut);
+    await expect(page.getByRole('alert')).toBeVisible();
+    await noFindings(page, 'a broken file');
+  });
+}
+
+test('the whole way by keyboard', async ({ page }) => {
+  await ready(page);
+  const reach = async (name: RegExp): Promise<void> => {
+    for (let presses = 0; presses < 60; presses++) {
+      await page.keyboard.press('Tab');
+      const label = await page.evaluate(() => {
+        const at = document.activeElement;
+        const labelled = at instanceof HTMLInputElement ? at.labels?.[0]?.textContent : undefined;
+        return at?.getAttribute('aria-label') ?? labelled ?? at?.textContent ?? '';
+      });
+      if (name.test(label.trim())) return;
+    }
+    throw new Error(`Tab does not reach ${name}`);
+  };
+
+  const chooser = page.waitForEvent('filechooser');
+  await reach(/^Open model$/);
+  await page.keyboard.press('Enter');
+  await (await chooser).setFiles({ name: 'cube.stl', mimeType: 'model/stl', buffer: binaryStl(box(20, 20, 20)) });
+  await expect(page.getByText('20 × 20 × 20 mm')).toBeVisible();
+
+  await reach(/^Walls$/);
+  await page.keyboard.press('Control+A');
+  await page.keyboard.type('2');
+  await reach(/^Slice$/);
+  await page.keyboard.press('Enter');
+  await expect(downloadButton(page)).toBeEnabled();
+  await expect(page.getByRole('status')).toContainText('Sliced: 100 layers');
+  await expect(sliceButton(page)).toBeFocused();
+
+  const waiting = page.waitForEvent('download');
+  await reach(/^Download G-code$/);
+  await page.keyboard.press('Enter');
+  expect((await waiting).suggestedFilename()).toMatch(/^cube_/);
+
+  await reach(/^Picture/);
+  const before = await settled(page);
+  await page.keyboard.press('+');
+  await page.keyboard.press('ArrowLeft');
+  expect((await settled(page)).equals(before)).toBe(false);
+  const layer = Number(await layerSlider(page).inputValue());
+  await page.keyboard.press('PageUp');
+  await expect(layerSlider(page)).toHaveValue(String(layer + 1));
+  await expect(picture(page)).toBeFocused();
+  await reach(/^Layer$/);
+  await page.keyboard.press('Home');
+  await expect(layerSlider(page)).toHaveValue('1');
+});
+
+test('on a phone nothing is wider than the screen, and slicing works', async ({ browser, baseURL }) => {
+  const context = await browser.newContext({ viewport: { width: 360, height: 740 }, isMobile: true, hasTouch: true });
+  const page = await context.newPage();
+  await ready(page, baseURL);
+  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(360);
+  await sliceButton(page).tap();
+  await expect(downloadButton(page)).toBeEnabled();
+  await noFindings(page, 'phone');
+  await context.close();
+});

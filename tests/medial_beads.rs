@@ -1,0 +1,307 @@
+//! Beads along the medial axis: strips, rings and junctions whose lengths and areas are known on
+//! paper, and shapes on which triangulations like to fail.
+
+use foothold::polygon::trig::sin_cos;
+use foothold::polygon::{Contour, DVec2, PolygonSet, by_x_then_y, dvec2, snap};
+use foothold::region::{Path, Role, Width};
+use foothold::toolpath::medial::{ThinBeads, ThinFill, fill_thin};
+use proptest::prelude::*;
+use std::f64::consts::{PI, TAU};
+
+fn area(points: &[(f64, f64)]) -> PolygonSet {
+    PolygonSet::from_contours(vec![Contour::new(points.iter().map(|&(x, y)| snap(dvec2(x, y))).collect())])
+}
+
+fn bar(a: (f64, f64), b: (f64, f64), width: f64) -> PolygonSet {
+    let (a, b) = (dvec2(a.0, a.1), dvec2(b.0, b.1));
+    let side = (b - a).normalize().perp() * width / 2.0;
+    area(&[a - side, b - side, b + side, a + side].map(|p| (p.x, p.y)))
+}
+
+fn disc(radius: f64, corners: usize) -> PolygonSet {
+    let corner = |i: usize| {
+        let (sin, cos) = sin_cos(TAU * i as f64 / corners as f64);
+        (radius * cos, radius * sin)
+    };
+    area(&(0..corners).map(corner).collect::<Vec<_>>())
+}
+
+/// Area of the beads with square ends up to the end of the strip.
+fn plastic(beads: &ThinBeads, options: &ThinFill) -> f64 {
+    let one = |path: &Path| {
+        let n = path.points.len();
+        let edges = (0..if path.closed { n } else { n - 1 }).map(|i| (i, (i + 1) % n));
+        let mean = |i: usize, j: usize| (path.width.at(i) + path.width.at(j)) / 2.0;
+        let body: f64 = edges.map(|(i, j)| path.points[i].distance(path.points[j]) * mean(i, j)).sum();
+        let caps = path.width.at(0).powi(2) + path.width.at(n - 1).powi(2);
+        body + if path.closed { 0.0 } else { options.end_inset * caps }
+    };
+    beads.paths.iter().map(one).sum()
+}
+
+/// What holds for any input: finite points, widths in range, canonical order, no fallback.
+fn assert_sane(beads: &ThinBeads, options: &ThinFill) {
+    assert_eq!(beads.fallbacks, []);
+    assert!(beads.left_mm2 >= 0.0 && beads.left_mm2.is_finite());
+    for path in &beads.paths {
+        assert_eq!(path.role, options.role);
+        assert!(path.points.len() >= if path.closed { 3 } else { 2 });
+        assert!(path.points.iter().all(|p| p.is_finite() && snap(*p) == *p));
+        let widths = (0..path.points.len()).map(|i| path.width.at(i));
+        assert!(widths.into_iter().all(|w| (options.min_width..=options.max_width).contains(&w)));
+        assert!(path.points.windows(2).all(|w| w[0] != w[1]));
+        let first = path.points[0];
+        let others = if path.closed { &path.points[1..] } else { &path.points[path.points.len() - 1..] };
+        assert!(others.iter().all(|&p| by_x_then_y(first, p).is_lt()));
+    }
+    assert!(beads.paths.is_sorted_by(|a, b| by_x_then_y(a.points[0], b.points[0]).is_le()));
+}
+
+fn fill(area: &PolygonSet) -> ThinBeads {
+    let options = ThinFill::default();
+    let beads = fill_thin(area, &options);
+    assert_sane(&beads, &options);
+    beads
+}
+
+#[test]
+fn a_strip_is_one_straight_bead_of_its_width() {
+    for width in [0.2, 0.3, 0.45, 0.6, 0.9] {
+        let beads = fill(&PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(20.0, width)));
+        let [path] = &beads.paths[..] else { panic!("{width}: {} paths", beads.paths.len()) };
+        let Width::Uniform(found) = path.width else { panic!("{width}: varying") };
+        assert!((found - width).abs() < 2e-4, "{found}");
+        let inset = PI / 8.0 * width;
+        assert_eq!(path.points, [snap(dvec2(inset, width / 2.0)), snap(dvec2(20.0 - inset, width / 2.0))]);
+        assert_eq!(beads.left_mm2, 0.0);
+    }
+}
+
+#[test]
+fn a_turned_strip_keeps_its_length_and_width() {
+    for (x, y) in [(10.0, 7.0), (-3.0, 11.0), (12.0, 0.5)] {
+        let beads = fill(&bar((0.0, 0.0), (x, y), 0.45));
+        let [Path { width: Width::Uniform(width), .. }] = beads.paths[..] else {
+            panic!("{:?}", beads.paths)
+        };
+        assert!((width - 0.45).abs() < 5e-4);
+        let expected = dvec2(x, y).length() - 0.45 * PI / 4.0;
+        assert!((beads.paths[0].length() - expected).abs() < 2e-3);
+    }
+}
+
+#[test]
+fn the_end_inset_sets_where_lines_end() {
+    let strip = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(10.0, 0.6));
+    for end_inset in [0.0, 0.5, 1.0] {
+        let beads = fill_thin(&strip, &ThinFill { end_inset, ..ThinFill::default() });
+        assert!((beads.paths[0].length() - (10.0 - 2.0 * end_inset * 0.6)).abs() < 1e-3);
+    }
+}
+
+#[test]
+fn a_ring_is_one_closed_bead() {
+    let beads = fill(&disc(5.225, 180).difference(&disc(4.775, 150)));
+    let [path] = &beads.paths[..] else { panic!("{} paths", beads.paths.len()) };
+    assert!(path.closed && matches!(path.width, Width::Uniform(w) if (w - 0.45).abs() < 0.01));
+    assert!((path.length() - TAU * 5.0).abs() < 0.05);
+    assert!(path.points.len() < 100, "{} points", path.points.len());
+}
+
+#[test]
+fn a_frame_is_one_closed_bead() {
+    let outer = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(10.0, 6.0));
+    let frame = outer.difference(&PolygonSet::rectangle(dvec2(0.6, 0.6), dvec2(9.4, 5.4)));
+    let beads = fill(&frame);
+    assert!(beads.paths.len() == 1 && beads.paths[0].closed);
+    assert!((plastic(&beads, &ThinFill::default()) / frame.area() - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn a_wedge_varies_with_its_thickness() {
+    // From 0.2 to 0.8 mm over 20 mm, so 0.2 + 0.03 x at x.
+    let wedge = area(&[(0.0, -0.1), (20.0, -0.4), (20.0, 0.4), (0.0, 0.1)]);
+    let beads = fill(&wedge);
+    let [path] = &beads.paths[..] else { panic!("{} paths", beads.paths.len()) };
+    for (i, p) in path.points.iter().enumerate() {
+        assert!(p.y.abs() < 0.01);
+        let inner = (0.8..19.2).contains(&p.x);
+        assert!(!inner || (path.width.at(i) - (0.2 + 0.03 * p.x)).abs() < 0.02, "{p}: {}", path.width.at(i));
+    }
+    assert!((plastic(&beads, &ThinFill::default()) / wedge.area() - 1.0).abs() < 0.02);
+}
+
+#[test]
+fn a_needle_ends_where_it_gets_too_thin() {
+    // 0.08 x thick at x: 0.1 mm at x = 1.25.
+    let beads = fill(&area(&[(0.0, 0.0), (10.0, -0.4), (10.0, 0.4)]));
+    assert_eq!(beads.paths.len(), 1);
+    assert!((beads.paths[0].points[0].x - 1.25).abs() < 0.05, "{}", beads.paths[0].points[0]);
+    assert!((beads.left_mm2 - 1.25 * 0.1 / 2.0).abs() < 0.01, "{}", beads.left_mm2);
+}
+
+#[test]
+fn at_a_t_the_bar_goes_through_and_the_stem_ends_at_it() {
+    let bars = [bar((0.0, 0.0), (10.0, 0.0), 0.5), bar((5.0, 0.0), (5.0, -6.0), 0.5)];
+    let shape = PolygonSet::union_all(&bars);
+    let beads = fill(&shape);
+    let [through, stem] = &beads.paths[..] else { panic!("{} paths", beads.paths.len()) };
+    assert!((through.points[0].x - 0.196).abs() < 0.01);
+    assert!((through.points[through.points.len() - 1].x - 9.804).abs() < 0.01);
+    // The circle at the junction touches the bar's far side and both corners: radius 5/8 of the
+    // width. So the stem ends 5/4 widths below the far side at y = 0.25.
+    assert!(stem.points.iter().all(|p| (p.x - 5.0).abs() < 0.01));
+    let top = stem.points.iter().map(|p| p.y).fold(f64::MIN, f64::max);
+    assert!((top - (0.25 - 0.625)).abs() < 0.01, "{top}");
+    assert!((plastic(&beads, &ThinFill::default()) / shape.area() - 1.0).abs() < 0.02);
+}
+
+#[test]
+fn at_a_crossing_one_line_goes_through() {
+    let bars = [bar((0.0, 0.0), (8.0, 8.0), 0.5), bar((0.0, 8.0), (8.0, 0.0), 0.5)];
+    let beads = fill(&PolygonSet::union_all(&bars));
+    let mut lengths: Vec<f64> = beads.paths.iter().map(Path::length).collect();
+    lengths.sort_by(f64::total_cmp);
+    assert_eq!(lengths.len(), 3);
+    let whole = 128.0_f64.sqrt();
+    assert!((lengths[2] - whole).abs() < 0.5 && lengths[1] < whole / 2.0, "{lengths:?}");
+}
+
+#[test]
+fn a_strip_too_wide_is_clamped_and_reported() {
+    let beads = fill(&PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(20.0, 1.5)));
+    assert_eq!(beads.paths.len(), 1);
+    assert_eq!(beads.paths[0].width, Width::Uniform(0.9));
+    assert!((beads.left_mm2 - 20.0 * 0.6).abs() < 0.6, "{}", beads.left_mm2);
+}
+
+#[test]
+fn small_posts_stay_and_specks_go() {
+    let post = |size: f64| fill(&PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(size, size)));
+    assert_eq!(post(0.6).paths.len(), 1);
+    assert!((plastic(&post(0.6), &ThinFill::default()) - 0.36).abs() < 0.01);
+    assert_eq!(post(0.3).paths, []);
+    assert!(post(0.3).left_mm2 > 0.0);
+    assert_eq!(fill(&PolygonSet::EMPTY), ThinBeads::default());
+}
+
+#[test]
+fn corners_are_filled_by_turning_not_by_spurs() {
+    let bent = PolygonSet::union_all(&[bar((0.0, 5.0), (0.0, 0.0), 0.5), bar((-0.25, 0.0), (4.0, 0.0), 0.5)]);
+    assert_eq!(fill(&bent).paths.len(), 1);
+}
+
+#[test]
+fn a_comb_has_a_bead_per_tooth() {
+    let mut bars = vec![PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(100.0, 0.5))];
+    bars.extend(
+        (0..100).map(|i| PolygonSet::rectangle(dvec2(i as f64 + 0.2, 0.3), dvec2(i as f64 + 0.6, 4.0))),
+    );
+    let comb = PolygonSet::union_all(&bars);
+    let beads = fill(&comb);
+    // The outermost tooth and the bar's stub beyond it may make one line.
+    assert!((100..=101).contains(&beads.paths.len()), "{}", beads.paths.len());
+    assert!((plastic(&beads, &ThinFill::default()) / comb.area() - 1.0).abs() < 0.03);
+}
+
+#[test]
+fn a_spiral_of_five_thousand_points_is_one_bead() {
+    let side = |offset: f64, i: usize| {
+        let angle = i as f64 * 0.02;
+        let (sin, cos) = sin_cos(angle);
+        ((1.0 + 0.2 * angle + offset) * cos, (1.0 + 0.2 * angle + offset) * sin)
+    };
+    let out = (0..2500).map(|i| side(0.25, i));
+    let spiral = area(&out.chain((0..2500).rev().map(|i| side(-0.25, i))).collect::<Vec<_>>());
+    let beads = fill(&spiral);
+    assert_eq!(beads.paths.len(), 1);
+    assert!((plastic(&beads, &ThinFill::default()) / spiral.area() - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn contours_that_touch_give_a_result() {
+    let touching = [
+        PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(5.0, 0.5)),
+        PolygonSet::rectangle(dvec2(5.0, 0.5), dvec2(10.0, 1.0)),
+        PolygonSet::rectangle(dvec2(2.0, 0.5), dvec2(2.4, 4.0)),
+        PolygonSet::rectangle(dvec2(2.4, 4.0), dvec2(6.0, 4.4)),
+    ];
+    let shape = PolygonSet::union_all(&touching);
+    assert!((plastic(&fill(&shape), &ThinFill::default()) / shape.area() - 1.0).abs() < 0.05);
+    let diamond = area(&[(0.5, 0.25), (5.0, 0.0), (9.5, 0.25), (5.0, 0.5)]);
+    fill(&PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(10.0, 0.5)).difference(&diamond));
+}
+
+#[test]
+fn a_needle_of_one_grid_step_is_no_fallback() {
+    // Found by random bars: points added to the two sides of the needle and rounded made them cross.
+    let found = [
+        (11.6164, 6.2689),
+        (13.8638, 2.4148),
+        (13.9766, 1.1728),
+        (14.1738, 1.1907),
+        (14.0993, 2.0108),
+        (14.816, 0.7819),
+        (14.8161, 0.782),
+        (14.0993, 2.0111),
+        (13.8899, 4.318),
+        (13.6926, 4.3001),
+        (13.8637, 2.415),
+    ];
+    assert_eq!(fill(&area(&found)).paths.len(), 1);
+}
+
+#[test]
+fn role_and_options_reach_the_paths() {
+    let options = ThinFill { role: Role::OuterWall, max_width: 0.5, min_width: 0.4, ..ThinFill::default() };
+    let strip = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(5.0, 0.3));
+    let beads = fill_thin(&strip, &options);
+    assert_sane(&beads, &options);
+    assert_eq!(beads.paths[0].width, Width::Uniform(0.4));
+}
+
+/// Bars of 0.2 to 0.8 mm at random places; where they cross, junctions of any kind.
+fn bars() -> impl Strategy<Value = PolygonSet> {
+    let one = (0.0..15.0, 0.0..15.0, -9.0..9.0, -9.0..9.0, 0.2..0.8);
+    prop::collection::vec(one, 1..14).prop_map(|bars| {
+        let far_enough = bars.iter().filter(|b| dvec2(b.2, b.3).length() > 1.0);
+        let sets: Vec<_> = far_enough.map(|&(x, y, dx, dy, w)| bar((x, y), (x + dx, y + dy), w)).collect();
+        PolygonSet::union_all(&sets)
+    })
+}
+
+/// Any area, mostly far too thick: nothing is known but that it must end well.
+fn wild() -> impl Strategy<Value = PolygonSet> {
+    let grid = (-60_i32..60, -60_i32..60).prop_map(|(x, y)| dvec2(f64::from(x) / 20.0, f64::from(y) / 20.0));
+    prop::collection::vec(grid, 3..60)
+        .prop_map(|points| PolygonSet::from_contours(vec![Contour::new(points)]))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 150, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn random_strips_are_filled(shape in bars()) {
+        let options = ThinFill::default();
+        let beads = fill_thin(&shape, &options);
+        assert_sane(&beads, &options);
+        // Crossings at flat angles leave wide places; the rest is filled.
+        let filled = plastic(&beads, &options) / (shape.area() - beads.left_mm2).max(1e-9);
+        prop_assert!((0.85..1.15).contains(&filled), "{filled}");
+        prop_assert_eq!(fill_thin(&shape, &options), beads);
+    }
+
+    #[test]
+    fn any_area_gives_sane_beads(shape in wild()) {
+        let options = ThinFill::default();
+        assert_sane(&fill_thin(&shape, &options), &options);
+    }
+
+    #[test]
+    fn centre_lines_stay_inside(shape in bars()) {
+        for path in fill_thin(&shape, &ThinFill::default()).paths {
+            let middles = path.points.windows(2).map(|w: &[DVec2]| (w[0] + w[1]) / 2.0);
+            prop_assert!(path.points.iter().copied().chain(middles).all(|p| shape.contains(p)));
+        }
+    }
+}

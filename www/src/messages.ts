@@ -1,0 +1,122 @@
+// The one list of what the page (or the command line) and the lanes that run the engine say to each other.
+// A lane answers each request with a reply of the same kind, or with a failure.
+
+/** Layers `first` to `last`, without `last`. */
+export interface Range {
+  readonly first: number;
+  readonly last: number;
+}
+
+/** The part of Blob that reading a model needs; the command line gives a file on disk this shape. */
+export interface Bytes {
+  readonly size: number;
+  slice(from: number, to: number): { arrayBuffer(): Promise<ArrayBuffer> };
+}
+
+/** A model file that can be read again at any time: a new lead reloads it after a cancel or a crash. */
+export interface ModelSource {
+  readonly name: string;
+  readonly file: Bytes;
+}
+
+export type PictureView = 'iso' | 'top' | 'front';
+export type Theme = 'light' | 'dark';
+
+/** What the engine's painter takes: CSS px per mm, centre x and y (mm), width and height (CSS px), pixel ratio. */
+export type CameraNumbers = readonly [number, number, number, number, number, number];
+
+/** Smallest x and y, largest x and y, mm. */
+export type Bounds = readonly [number, number, number, number];
+
+/** What one colour of a picture stands for. */
+export interface LegendEntry {
+  readonly role: string;
+  readonly color: string;
+  readonly length_mm: number;
+}
+
+/** Requests to the lead lane, which holds the models and the job. */
+export type LeadRequest =
+  | { readonly kind: 'open'; readonly sources: readonly ModelSource[] }
+  | { readonly kind: 'settings'; readonly files: readonly string[]; readonly sets: readonly string[] }
+  | { readonly kind: 'begin'; readonly settings: string }
+  | { readonly kind: 'prepare' }
+  | { readonly kind: 'share'; readonly range: Range }
+  | { readonly kind: 'slice'; readonly range: Range }
+  | { readonly kind: 'add'; readonly meta: Uint8Array }
+  | { readonly kind: 'finish' }
+  | { readonly kind: 'end' }
+  | { readonly kind: 'drawLayer'; readonly layer: number }
+  | { readonly kind: 'drawPlane'; readonly spec: string }
+  | { readonly kind: 'picture'; readonly view: PictureView }
+  | { readonly kind: 'paint'; readonly camera: CameraNumbers; readonly theme: Theme };
+
+export type LeadReply =
+  | { readonly kind: 'open'; readonly inspections: readonly string[]; readonly parse_ms: number }
+  | { readonly kind: 'settings'; readonly settings: string }
+  | { readonly kind: 'begin'; readonly layers: number }
+  | { readonly kind: 'prepare' }
+  | { readonly kind: 'share'; readonly share: Uint8Array }
+  | ({ readonly kind: 'slice' } & SlicedRange)
+  | { readonly kind: 'add' }
+  | ({ readonly kind: 'finish' } & Joined)
+  | { readonly kind: 'end' }
+  | { readonly kind: 'drawLayer'; readonly svg: string }
+  | { readonly kind: 'drawPlane'; readonly svg: string }
+  | { readonly kind: 'picture'; readonly bounds: Bounds }
+  | { readonly kind: 'paint'; readonly bitmap: ImageBitmap };
+
+/** The G-code of some layers; layer i of them is `text[offsets[i]..offsets[i + 1]]`. */
+export interface SlicedRange {
+  readonly text: Uint8Array<ArrayBuffer>;
+  readonly offsets: Uint32Array;
+}
+
+/**
+ * What joins the layers: `pieces` are triples (source, from, to) in the order of the file; source 0 is `glue`,
+ * source k + 1 the text of layer k.
+ */
+export interface Joined {
+  readonly report: string;
+  readonly fileName: string;
+  readonly glue: Uint8Array<ArrayBuffer>;
+  readonly pieces: Uint32Array;
+}
+
+/** Requests to a helper lane, which keeps nothing between them. */
+export type HelperRequest = { readonly kind: 'slice'; readonly share: Uint8Array };
+export type HelperReply = { readonly kind: 'slice'; readonly meta: Uint8Array } & SlicedRange;
+
+/** Requests to the view lane, which owns the canvas of the layer view. */
+export type ViewRequest =
+  | { readonly kind: 'canvas'; readonly canvas: OffscreenCanvas }
+  | { readonly kind: 'layer'; readonly text: Uint8Array; readonly settings: string }
+  | { readonly kind: 'paint'; readonly camera: CameraNumbers; readonly theme: Theme };
+
+export type ViewReply =
+  | { readonly kind: 'canvas' }
+  | { readonly kind: 'layer'; readonly bounds: Bounds; readonly legend: readonly LegendEntry[] }
+  | { readonly kind: 'paint' };
+
+export interface Tagged {
+  readonly kind: string;
+}
+
+/** The reply to a request of kind `K`. */
+export type ReplyTo<A extends Tagged, K extends string> = Extract<A, { readonly kind: K }>;
+
+/** A failed request. A lane with a `fatal` failure is not trusted any more. */
+export interface Failure {
+  readonly name: string;
+  readonly message: string;
+  readonly source?: string;
+  readonly fatal: boolean;
+}
+
+/** What goes over the wire to a lane in another thread, and what comes back. */
+export type ToLane<Q extends Tagged> =
+  | { readonly start: WebAssembly.Module }
+  | { readonly id: number; readonly request: Q };
+export type FromLane<A extends Tagged> =
+  | { readonly id: number; readonly reply: A }
+  | { readonly id: number; readonly failure: Failure };

@@ -1,0 +1,20 @@
+// One of the page's helper lanes.
+import * as engine from '../generated/engine/foothold.js';
+import type { HelperReply, HelperRequest, ToLane } from '../messages.ts';
+import { watchPanics } from './errors.ts';
+import { help } from './helper.ts';
+import { serve } from './lane.ts';
+
+declare const self: DedicatedWorkerGlobalScope;
+
+watchPanics(console.warn);
+
+const receive = serve<HelperRequest, HelperReply>(
+  (module) => {
+    engine.initSync({ module });
+    return (request) => help(engine, request);
+  },
+  (message, transfer) => self.postMessage(message, transfer),
+);
+
+self.onmessage = ({ data }: MessageEvent<ToLane<HelperRequest>>) => receive(data);

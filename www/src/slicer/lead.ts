@@ -1,0 +1,178 @@
+// The lead lane's side of the conversation: it holds the models and the job.
+import type { Chunk, Job, Model, Scene } from '../generated/engine/foothold.js';
+import type { Bounds, CameraNumbers, LeadReply, LeadRequest, ModelSource, SlicedRange, Theme } from '../messages.ts';
+import { canvasSize } from '../view/camera.ts';
+import { EngineError, toFailure } from './errors.ts';
+
+export type Engine = typeof import('../generated/engine/foothold.js');
+
+/** Bytes of a model file read at a time. */
+const READ_BYTES = 4 << 20;
+
+export class Lead {
+  readonly #engine: Engine;
+  #models: Model[] = [];
+  #names: string[] = [];
+  #job: Job | undefined;
+  #scene: Scene | undefined;
+
+  constructor(engine: Engine) {
+    this.#engine = engine;
+  }
+
+  async handle(request: LeadRequest): Promise<LeadReply> {
+    switch (request.kind) {
+      case 'open':
+        return { kind: 'open', ...(await this.#open(request.sources)) };
+      case 'settings':
+        return { kind: 'settings', settings: this.#engine.resolve_settings([...request.files], [...request.sets]) };
+      case 'begin':
+        return { kind: 'begin', layers: this.#begin(request.settings) };
+      case 'prepare':
+        this.#current().prepare();
+        return { kind: 'prepare' };
+      case 'share':
+        return { kind: 'share', share: this.#current().share(request.range.first, request.range.last) };
+      case 'slice':
+        return { kind: 'slice', ...this.#slice(request.range.first, request.range.last) };
+      case 'add':
+        this.#current().add(request.meta);
+        return { kind: 'add' };
+      case 'finish':
+        return { kind: 'finish', ...this.#finish() };
+      case 'end':
+        this.#end();
+        return { kind: 'end' };
+      case 'drawLayer':
+        return { kind: 'drawLayer', svg: this.#current().draw_layer(request.layer) };
+      case 'drawPlane':
+        return { kind: 'drawPlane', svg: this.#current().draw_plane(request.spec) };
+      case 'picture':
+        return { kind: 'picture', bounds: this.#picture(request.view) };
+      case 'paint':
+        return { kind: 'paint', bitmap: this.#paint(request.camera, request.theme) };
+      default:
+        return request satisfies never;
+    }
+  }
+
+  async #open(sources: readonly ModelSource[]): Promise<{ inspections: string[]; parse_ms: number }> {
+    this.#clear();
+    const started = performance.now();
+    for (const source of sources) {
+      this.#models.push(await this.#read(source));
+      this.#names.push(stem(source.name));
+    }
+    const parse_ms = performance.now() - started;
+    return { inspections: this.#models.map((model) => model.inspect()), parse_ms };
+  }
+
+  async #read({ name, file }: ModelSource): Promise<Model> {
+    const reader = new this.#engine.ModelReader(file.size);
+    try {
+      let next = read(file, 0);
+      for (let from = 0; from < file.size; from += READ_BYTES) {
+        const chunk = await next;
+        next = read(file, from + READ_BYTES);
+        reader.push(chunk);
+      }
+      return reader.finish();
+    } catch (error) {
+      throw new EngineError(toFailure(error, name));
+    }
+  }
+
+  #begin(settings: string): number {
+    this.#end();
+    this.#job = new this.#engine.Job(
+      this.#models.map((model) => model.clone_model()),
+      this.#names,
+      settings,
+    );
+    return this.#job.layer_count();
+  }
+
+  #slice(first: number, last: number): SlicedRange {
+    const chunk = this.#current().slice(first, last);
+    this.#current().add(chunk.meta());
+    return taken(chunk);
+  }
+
+  #finish(): { report: string; fileName: string; glue: Uint8Array<ArrayBuffer>; pieces: Uint32Array } {
+    const result = this.#current().finish();
+    const joined = {
+      report: result.report(),
+      fileName: result.file_name(),
+      glue: result.glue() as Uint8Array<ArrayBuffer>,
+      pieces: result.pieces(),
+    };
+    result.free();
+    return joined;
+  }
+
+  #picture(view: string): Bounds {
+    const [model] = this.#models;
+    if (model === undefined) throw new Error('there is no model to show');
+    this.#scene?.free();
+    this.#scene = model.picture(view);
+    return boundsOf(this.#scene);
+  }
+
+  #paint(camera: CameraNumbers, theme: Theme): ImageBitmap {
+    if (this.#scene === undefined) throw new Error('there is no picture to paint');
+    const { width, height } = canvasSize(camera);
+    const canvas = new OffscreenCanvas(width, height);
+    const context = canvas.getContext('2d');
+    if (context === null) throw new Error('this browser has no 2D canvas in workers');
+    this.#scene.paint(context, Float64Array.from(camera), theme);
+    return canvas.transferToImageBitmap();
+  }
+
+  #current(): Job {
+    if (this.#job === undefined) throw new Error('no job was begun');
+    return this.#job;
+  }
+
+  #end(): void {
+    this.#job?.free();
+    this.#job = undefined;
+  }
+
+  #clear(): void {
+    this.#end();
+    this.#scene?.free();
+    this.#scene = undefined;
+    for (const model of this.#models) model.free();
+    this.#models = [];
+    this.#names = [];
+  }
+}
+
+/** The next bytes of a file; one that can't be read any more (moved, changed) is the model's fault, not ours. */
+async function read(file: ModelSource['file'], from: number): Promise<Uint8Array> {
+  if (from >= file.size) return new Uint8Array();
+  try {
+    return new Uint8Array(await file.slice(from, Math.min(from + READ_BYTES, file.size)).arrayBuffer());
+  } catch (error) {
+    const reason = error instanceof Error ? error.message : String(error);
+    throw new EngineError({ name: 'ModelError', message: `can't be read: ${reason}`, fatal: false });
+  }
+}
+
+/** A model's name as its G-code file begins: no folders, no ending. */
+function stem(name: string): string {
+  const base = name.split(/[/]/).at(-1) ?? name;
+  return base.replace(/\.stl$/i, '') || 'model';
+}
+
+/** The chunk's text, moved out of the engine. */
+export function taken(chunk: Chunk): SlicedRange {
+  const range = { offsets: chunk.layer_offsets(), text: chunk.text() as Uint8Array<ArrayBuffer> };
+  chunk.free();
+  return range;
+}
+
+export function boundsOf(scene: Scene): Bounds {
+  const [minX = 0, minY = 0, maxX = 0, maxY = 0] = scene.bounds();
+  return [minX, minY, maxX, maxY];
+}

@@ -1,0 +1,21 @@
+// The page's lead lane.
+import * as engine from '../generated/engine/foothold.js';
+import type { LeadReply, LeadRequest, ToLane } from '../messages.ts';
+import { watchPanics } from './errors.ts';
+import { serve } from './lane.ts';
+import { Lead } from './lead.ts';
+
+declare const self: DedicatedWorkerGlobalScope;
+
+watchPanics(console.warn);
+
+const receive = serve<LeadRequest, LeadReply>(
+  (module) => {
+    engine.initSync({ module });
+    const lead = new Lead(engine);
+    return (request) => lead.handle(request);
+  },
+  (message, transfer) => self.postMessage(message, transfer),
+);
+
+self.onmessage = ({ data }: MessageEvent<ToLane<LeadRequest>>) => receive(data);

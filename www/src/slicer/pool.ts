@@ -1,0 +1,279 @@
+// Runs a job over several lanes; used by the page and by the command line. The lead lane holds the models and
+// the job; helper lanes slice the ranges of layers that the lead prepares for them. What comes out does not
+// depend on how many lanes there are or on which of them sliced what.
+import type { Bounds, CameraNumbers, ModelSource, PictureView, Range, SlicedRange, Theme } from '../messages.ts';
+import { EngineError } from './errors.ts';
+import type { Gcode } from './gcode.ts';
+import type { HelperLane, LeadLane } from './lane.ts';
+
+/** Makes lanes; the two places that run a pool make them differently. */
+export interface LaneMaker {
+  lead(): LeadLane;
+  helper(): HelperLane;
+}
+
+export type Stage = 'read' | 'prepare' | 'layers' | 'join';
+
+/** How far a job is; `done` of `total` layers in the stage "layers". */
+export interface Progress {
+  readonly stage: Stage;
+  readonly done: number;
+  readonly total: number;
+}
+
+export interface SliceOptions {
+  /** All settings, as JSON. */
+  readonly settings: string;
+  readonly signal?: AbortSignal;
+  readonly progress?: (progress: Progress) => void;
+}
+
+export interface Opened {
+  /** One inspection (JSON) per model. */
+  readonly inspections: readonly string[];
+  readonly parse_ms: number;
+}
+
+/** Layers in a range for a helper: its share is small beside its work, and many ranges even out the lanes. */
+const HELPER_LAYERS = 24;
+/** The lead takes fewer, so that a helper that waits for its share does not wait long. */
+const LEAD_LAYERS = 8;
+/** Ranges under way for one helper, so that it does not stand still while the lead is busy. */
+const RANGES_PER_HELPER = 2;
+
+export class Pool {
+  readonly #make: LaneMaker;
+  readonly #workers: number;
+  #sources: readonly ModelSource[] = [];
+  #lead: LeadLane | undefined;
+  #loaded: Promise<Opened> | undefined;
+  readonly #helpers = new Set<HelperLane>();
+  #pictured: LeadLane | undefined;
+  #generation = 0;
+
+  /** `workers` engines in all, the lead included. */
+  constructor(make: LaneMaker, workers: number) {
+    this.#make = make;
+    this.#workers = workers;
+  }
+
+  /** Reads models into a lead; they stay open until others are. */
+  open(sources: readonly ModelSource[]): Promise<Opened> {
+    this.#drop();
+    this.#sources = sources;
+    return this.ready();
+  }
+
+  /** The models' reading; starts a new lead with them when the last one ended. */
+  ready(): Promise<Opened> {
+    this.#loaded ??= this.#load();
+    return this.#loaded;
+  }
+
+  /** All settings as JSON, from settings files and `path=value` words. */
+  async settings(files: readonly string[], sets: readonly string[]): Promise<string> {
+    return (await this.#guard(this.#someLead().call({ kind: 'settings', files, sets }))).settings;
+  }
+
+  /** Slices the open models. Rejects with an EngineError, or an AbortError once `signal` says so. */
+  async slice({ settings, signal, progress }: SliceOptions): Promise<Gcode> {
+    const cancelled = cancellation(signal);
+    const sliced = Promise.race([this.#slice(settings, progress ?? (() => undefined)), cancelled.promise]);
+    try {
+      return await this.#guard(sliced);
+    } finally {
+      cancelled.forget();
+    }
+  }
+
+  /** Begins a job and gives `draw` its lead; for pictures of layers and planes. */
+  async draw(settings: string, what: { layer: number } | { plane: string }): Promise<string> {
+    await this.ready();
+    const lead = this.#someLead();
+    await this.#guard(lead.call({ kind: 'begin', settings }));
+    await this.#guard(lead.call({ kind: 'prepare' }));
+    const request =
+      'layer' in what
+        ? ({ kind: 'drawLayer', layer: what.layer } as const)
+        : ({ kind: 'drawPlane', spec: what.plane } as const);
+    const { svg } = await this.#guard(lead.call(request));
+    await lead.call({ kind: 'end' });
+    return svg;
+  }
+
+  /** Makes a picture of the first model, to be painted; resolves to what it covers. */
+  async picture(view: PictureView): Promise<Bounds> {
+    const lead = this.#someLead();
+    await this.ready();
+    const { bounds } = await this.#guard(lead.call({ kind: 'picture', view }));
+    this.#pictured = lead;
+    return bounds;
+  }
+
+  /** Paints the last picture; undefined when its lead has ended since: ask for the picture again. */
+  async paint(camera: CameraNumbers, theme: Theme): Promise<ImageBitmap | undefined> {
+    const lead = this.#pictured;
+    if (lead === undefined || lead !== this.#lead) return undefined;
+    return (await this.#guard(lead.call({ kind: 'paint', camera, theme }))).bitmap;
+  }
+
+  /** Ends all lanes. */
+  close(): void {
+    this.#drop();
+    this.#sources = [];
+  }
+
+  async #slice(settings: string, progress: (progress: Progress) => void): Promise<Gcode> {
+    progress({ stage: 'read', done: 0, total: 0 });
+    // This job talks to this lead only: a cancel closes it, and the job ends at its next word.
+    const lead = this.#someLead();
+    await this.ready();
+    const { layers } = await lead.call({ kind: 'begin', settings });
+    progress({ stage: 'prepare', done: 0, total: layers });
+    const helpers = this.#startHelpers(layers);
+    let texts: Uint8Array<ArrayBuffer>[];
+    try {
+      await lead.call({ kind: 'prepare' });
+      texts = await sliceLayers(lead, helpers, layers, progress);
+    } finally {
+      this.#closeHelpers(helpers);
+    }
+    progress({ stage: 'join', done: layers, total: layers });
+    const joined = await lead.call({ kind: 'finish' });
+    await lead.call({ kind: 'end' });
+    return { layers: texts, joined };
+  }
+
+  /** Starts the engines that a job of so many layers can use; they start while the lead prepares. */
+  #startHelpers(layers: number): readonly HelperLane[] {
+    const useful = Math.ceil(layers / HELPER_LAYERS) - 1;
+    const count = Math.max(0, Math.min(this.#workers - 1, useful));
+    const helpers = Array.from({ length: count }, () => this.#make.helper());
+    for (const helper of helpers) this.#helpers.add(helper);
+    return helpers;
+  }
+
+  #closeHelpers(helpers: Iterable<HelperLane>): void {
+    for (const helper of helpers) {
+      helper.close();
+      this.#helpers.delete(helper);
+    }
+  }
+
+  #someLead(): LeadLane {
+    this.#lead ??= this.#make.lead();
+    return this.#lead;
+  }
+
+  async #load(): Promise<Opened> {
+    const { inspections, parse_ms } = await this.#guard(
+      this.#someLead().call({ kind: 'open', sources: this.#sources }),
+    );
+    return { inspections, parse_ms };
+  }
+
+  /**
+   * Passes a result on. An expected error leaves the lanes as they were; anything else (a cancel, a broken
+   * engine) ends those that were there when the work began, so that the next request starts new ones.
+   */
+  async #guard<T>(work: Promise<T>): Promise<T> {
+    const generation = this.#generation;
+    try {
+      return await work;
+    } catch (error) {
+      const expected = error instanceof EngineError && !error.fatal;
+      if (!expected && generation === this.#generation) this.#drop();
+      throw error;
+    }
+  }
+
+  #drop(): void {
+    this.#generation++;
+    this.#closeHelpers(this.#helpers);
+    this.#lead?.close();
+    this.#lead = undefined;
+    this.#loaded = undefined;
+  }
+}
+
+/** The layers that nobody has taken yet, from the first. */
+export class LayerQueue {
+  readonly #total: number;
+  #next = 0;
+
+  constructor(total: number) {
+    this.#total = total;
+  }
+
+  /** The next layers, `count` or what is left; undefined when there are none. */
+  take(count: number): Range | undefined {
+    if (this.#next >= this.#total) return undefined;
+    const first = this.#next;
+    this.#next = Math.min(first + count, this.#total);
+    return { first, last: this.#next };
+  }
+
+  /** Hands out nothing more. */
+  stop(): void {
+    this.#next = this.#total;
+  }
+}
+
+async function sliceLayers(
+  lead: LeadLane,
+  helpers: readonly HelperLane[],
+  total: number,
+  progress: (progress: Progress) => void,
+): Promise<Uint8Array<ArrayBuffer>[]> {
+  const texts = new Array<Uint8Array<ArrayBuffer>>(total);
+  let done = 0;
+  const keep = (range: Range, sliced: SlicedRange): void => {
+    layersOf(sliced).forEach((text, k) => {
+      texts[range.first + k] = text;
+    });
+    done += range.last - range.first;
+    progress({ stage: 'layers', done, total });
+  };
+  const queue = new LayerQueue(total);
+  const helping = helpers.flatMap((helper) =>
+    Array.from({ length: RANGES_PER_HELPER }, () => helperWork(lead, helper, queue, keep)),
+  );
+  try {
+    await Promise.all([leadWork(lead, queue, keep), ...helping]);
+  } finally {
+    queue.stop();
+  }
+  return texts;
+}
+
+type Keep = (range: Range, sliced: SlicedRange) => void;
+
+async function leadWork(lead: LeadLane, queue: LayerQueue, keep: Keep): Promise<void> {
+  for (let range = queue.take(LEAD_LAYERS); range !== undefined; range = queue.take(LEAD_LAYERS)) {
+    keep(range, await lead.call({ kind: 'slice', range }));
+  }
+}
+
+async function helperWork(lead: LeadLane, helper: HelperLane, queue: LayerQueue, keep: Keep): Promise<void> {
+  for (let range = queue.take(HELPER_LAYERS); range !== undefined; range = queue.take(HELPER_LAYERS)) {
+    const { share } = await lead.call({ kind: 'share', range });
+    const { meta, ...sliced } = await helper.call({ kind: 'slice', share }, [share.buffer as ArrayBuffer]);
+    await lead.call({ kind: 'add', meta }, [meta.buffer as ArrayBuffer]);
+    keep(range, sliced);
+  }
+}
+
+function layersOf({ text, offsets }: SlicedRange): Uint8Array<ArrayBuffer>[] {
+  return Array.from({ length: offsets.length - 1 }, (_, k) => text.subarray(offsets[k], offsets[k + 1]));
+}
+
+/** A promise that rejects when `signal` aborts, and a way to stop listening. */
+function cancellation(signal: AbortSignal | undefined): { promise: Promise<never>; forget(): void } {
+  let listener: (() => void) | undefined;
+  const promise = new Promise<never>((_, reject) => {
+    listener = () => reject(new DOMException('cancelled', 'AbortError'));
+    if (signal?.aborted === true) listener();
+    signal?.addEventListener('abort', listener);
+  });
+  return { promise, forget: () => listener !== undefined && signal?.removeEventListener('abort', listener) };
+}

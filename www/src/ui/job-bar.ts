@@ -1,0 +1,89 @@
+// The job: slice, how far it is, cancel, download.
+import { html, nothing, type TemplateResult } from 'lit';
+import { en } from '../i18n/en.ts';
+import { type JobState, shareOf } from '../state.ts';
+import { Part } from './part.ts';
+import { problemBox } from './problem-box.ts';
+
+/** Sends `slice`, `cancel` and `download`. */
+export class JobBar extends Part {
+  static override properties = {
+    job: { attribute: false },
+    ready: { type: Boolean },
+    done: { type: Boolean },
+    stale: { type: Boolean },
+  };
+  declare job: JobState;
+  /** There is a model to slice. */
+  declare ready: boolean;
+  /** There is G-code to download. */
+  declare done: boolean;
+  declare stale: boolean;
+
+  constructor() {
+    super();
+    this.job = { kind: 'idle' };
+    this.ready = false;
+    this.done = false;
+    this.stale = false;
+  }
+
+  protected override render(): TemplateResult {
+    const running = this.job.kind === 'running';
+    return html`
+      <section class="card job" aria-label=${en.job.heading}>
+        <div class="row buttons">
+          <button
+            type="button"
+            class="button ${this.done && !this.stale ? '' : 'primary'}"
+            aria-disabled=${!this.ready || running}
+            @click=${() => this.ready && !running && this.tell('slice')}
+          >
+            ${en.job.slice}
+          </button>
+          ${running ? this.#cancel() : this.#download()}
+        </div>
+        ${this.#status()}
+      </section>
+    `;
+  }
+
+  #cancel(): TemplateResult {
+    return html`<button type="button" class="button" @click=${() => this.tell('cancel')}>${en.job.cancel}</button>`;
+  }
+
+  #download(): TemplateResult {
+    return html`<button
+      type="button"
+      class="button ${this.done && !this.stale ? 'primary' : ''}"
+      aria-disabled=${!this.done}
+      @click=${() => this.done && this.tell('download')}
+    >
+      ${en.job.download}
+    </button>`;
+  }
+
+  #status(): TemplateResult | typeof nothing {
+    switch (this.job.kind) {
+      case 'idle':
+        return nothing;
+      case 'cancelled':
+        return html`<p class="hint">${en.job.cancelled}</p>`;
+      case 'done':
+        return this.stale ? html`<p class="remark">${en.job.stale}</p>` : nothing;
+      case 'failed':
+        return problemBox(this.job.problem);
+      case 'running': {
+        const { stage, done, total } = this.job.progress;
+        return html`
+          <progress aria-label=${en.job.progress} max="1" .value=${shareOf(this.job.progress)}></progress>
+          <p class="hint">${en.job.stages[stage]}${stage === 'layers' ? ` ${en.job.layers(done, total)}` : ''}</p>
+        `;
+      }
+      default:
+        return this.job satisfies never;
+    }
+  }
+}
+
+customElements.define('job-bar', JobBar);

@@ -1,0 +1,30 @@
+// What the view asks for to be painted: layers by the view lane, the model's picture by the lead.
+import type { Bounds, CameraNumbers, LegendEntry, PictureView, Theme } from '../messages.ts';
+import type { Pool } from '../slicer/pool.ts';
+import type { ViewLane } from '../slicer/threads.ts';
+
+/** A layer's G-code, with the travel to it, and the settings it was made with. */
+export interface LayerText {
+  readonly text: Uint8Array;
+  readonly settings: string;
+}
+
+export interface Painter {
+  /** Gives the layer canvas away; once. */
+  adopt(canvas: OffscreenCanvas): Promise<void>;
+  layer(layer: LayerText): Promise<{ readonly bounds: Bounds; readonly legend: readonly LegendEntry[] }>;
+  paintLayer(camera: CameraNumbers, theme: Theme): Promise<void>;
+  picture(side: PictureView): Promise<Bounds>;
+  /** Undefined when the picture has to be asked for again. */
+  paintPicture(camera: CameraNumbers, theme: Theme): Promise<ImageBitmap | undefined>;
+}
+
+export function painter(pool: Pool, lane: ViewLane): Painter {
+  return {
+    adopt: async (canvas) => void (await lane.call({ kind: 'canvas', canvas }, [canvas])),
+    layer: ({ text, settings }) => lane.call({ kind: 'layer', text, settings }),
+    paintLayer: async (camera, theme) => void (await lane.call({ kind: 'paint', camera, theme })),
+    picture: (side) => pool.picture(side),
+    paintPicture: (camera, theme) => pool.paint(camera, theme),
+  };
+}
