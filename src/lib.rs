@@ -22,7 +22,9 @@
 
 pub mod mesh;
 pub mod options;
+pub mod orientation;
 pub mod polygon;
 pub mod printer;
 pub mod region;
 pub mod slice;
+pub mod support;

@@ -1,5 +1,6 @@
 //! What each area of a layer is for.
 
+pub mod overhang;
 mod path;
 
 pub use path::{Path, Width};
