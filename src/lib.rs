@@ -20,6 +20,7 @@
 //! on a grid of [`polygon::GRID_MM`]. Equal input gives equal bytes, natively and as wasm: no clock,
 //! no randomness, no hash-map order, no platform sine ([`polygon::trig`]).
 
+pub mod gcode;
 pub mod mesh;
 pub mod options;
 pub mod orientation;
@@ -28,3 +29,4 @@ pub mod printer;
 pub mod region;
 pub mod slice;
 pub mod support;
+pub mod toolpath;

@@ -7,6 +7,7 @@
 //! through the same operations therefore compare equal.
 
 pub mod boolean;
+pub mod grid;
 pub mod measure;
 pub mod offset;
 pub mod raycast;

@@ -1,9 +1,21 @@
 //! What each area of a layer is for.
 
+pub mod first_layer;
 pub mod overhang;
 mod path;
+pub mod shell;
 
+use crate::polygon::PolygonSet;
 pub use path::{Path, Width};
+
+/// An area of a layer and what it is for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Region {
+    /// What the area is for.
+    pub role: Role,
+    /// The area, mm.
+    pub area: PolygonSet,
+}
 
 /// What a region or a path is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]

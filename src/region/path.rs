@@ -47,6 +47,15 @@ impl Path {
         Path { role, points, closed: false, width: Width::Uniform(width) }
     }
 
+    /// The same bead laid the other way.
+    pub fn reversed(mut self) -> Path {
+        self.points.reverse();
+        if let Width::Varying(widths) = &mut self.width {
+            widths.reverse();
+        }
+        self
+    }
+
     /// Length of the centre line, the closing edge included, mm.
     pub fn length(&self) -> f64 {
         let open: f64 = self.points.windows(2).map(|w| w[0].distance(w[1])).sum();

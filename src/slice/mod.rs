@@ -40,19 +40,35 @@ pub struct Section {
 /// `resolution` is the distance, mm, by which a contour may be simplified before shells are
 /// united; 0 keeps every vertex of the exact section (snapped to the polygon grid).
 pub fn slice_mesh(mesh: &Mesh, axis: Axis, heights: &[f64], resolution: f64) -> Vec<Section> {
-    let crossings = section::Crossings::find(mesh, axis, heights);
-    let mut chainer = chain::Chainer::default();
-    let cut = |(i, &height): (usize, &f64)| {
-        let segments = section::cut(mesh, axis, height, crossings.of_plane(i));
-        let (loops, gaps) = chainer.chain(&segments);
-        Section { area: unite(loops, resolution), gaps }
-    };
-    heights.iter().enumerate().map(cut).collect()
+    let all = 0..mesh.triangles.len() as u32;
+    slice_triangles(mesh, all, axis, heights, resolution)
+}
+
+/// Like [`slice_mesh`] for some of the mesh's triangles: all that cross the planes must be among
+/// them, and they must come in mesh order.
+pub fn slice_triangles(
+    mesh: &Mesh,
+    triangles: impl Iterator<Item = u32> + Clone,
+    axis: Axis,
+    heights: &[f64],
+    resolution: f64,
+) -> Vec<Section> {
+    let sections = loops_of(mesh, triangles, axis, heights).into_iter();
+    sections.map(|(loops, gaps)| Section { area: unite(loops, resolution), gaps }).collect()
 }
 
 /// The loops of each plane before shells are united, every edge with the triangle it was cut from.
 pub fn slice_loops(mesh: &Mesh, axis: Axis, heights: &[f64]) -> Vec<(Vec<Loop>, Vec<Gap>)> {
-    let crossings = section::Crossings::find(mesh, axis, heights);
+    loops_of(mesh, 0..mesh.triangles.len() as u32, axis, heights)
+}
+
+fn loops_of(
+    mesh: &Mesh,
+    triangles: impl Iterator<Item = u32> + Clone,
+    axis: Axis,
+    heights: &[f64],
+) -> Vec<(Vec<Loop>, Vec<Gap>)> {
+    let crossings = section::Crossings::find(mesh, axis, heights, triangles);
     let mut chainer = chain::Chainer::default();
     let cut =
         |(i, &height): (usize, &f64)| chainer.chain(&section::cut(mesh, axis, height, crossings.of_plane(i)));

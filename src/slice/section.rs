@@ -33,10 +33,16 @@ pub struct Crossings {
 }
 
 impl Crossings {
-    /// Finds the crossings of the planes `axis = heights[i]`, heights ascending, mm.
-    pub fn find(mesh: &Mesh, axis: Axis, heights: &[f64]) -> Crossings {
+    /// Finds the crossings of the planes `axis = heights[i]`, heights ascending, mm, with the given
+    /// triangles.
+    pub fn find(
+        mesh: &Mesh,
+        axis: Axis,
+        heights: &[f64],
+        candidates: impl Iterator<Item = u32> + Clone,
+    ) -> Crossings {
         let mut starts = vec![0u32; heights.len() + 1];
-        let spans = || (0..mesh.triangles.len()).map(|t| (t, planes_crossed(mesh, axis, heights, t)));
+        let spans = || candidates.clone().map(|t| (t, planes_crossed(mesh, axis, heights, t)));
         for (_, span) in spans() {
             for plane in span {
                 starts[plane + 1] += 1;
@@ -50,7 +56,7 @@ impl Crossings {
         let mut next = starts.clone();
         for (t, span) in spans() {
             for plane in span {
-                triangles[next[plane] as usize] = t as u32;
+                triangles[next[plane] as usize] = t;
                 next[plane] += 1;
             }
         }
@@ -64,8 +70,8 @@ impl Crossings {
 }
 
 /// Planes with a vertex of the triangle below and one in or above them.
-fn planes_crossed(mesh: &Mesh, axis: Axis, heights: &[f64], triangle: usize) -> std::ops::Range<usize> {
-    let [a, b, c] = mesh.corners(triangle).map(|v| axis.height(v));
+fn planes_crossed(mesh: &Mesh, axis: Axis, heights: &[f64], triangle: u32) -> std::ops::Range<usize> {
+    let [a, b, c] = mesh.corners(triangle as usize).map(|v| axis.height(v));
     let (low, high) = (a.min(b).min(c), a.max(b).max(c));
     if low == high {
         return 0..0;
@@ -102,10 +108,12 @@ fn edge_key(a: u32, b: u32) -> EdgeKey {
     (u64::from(a.min(b)) << 32) | u64::from(a.max(b))
 }
 
-/// Where an edge meets the plane. The edge is walked from its smaller vertex index, so that both
-/// neighbours get the same point to the last bit.
+/// Where an edge meets the plane. The edge is walked upward, so that both neighbours, and any part
+/// of the mesh that holds them, get the same point to the last bit.
 fn cross_edge(mesh: &Mesh, axis: Axis, height: f64, a: u32, b: u32) -> DVec2 {
-    let [p, q] = [a.min(b), a.max(b)].map(|v| mesh.vertices[v as usize]);
+    let [a, b] = [a, b].map(|v| mesh.vertices[v as usize]);
+    // The edge crosses the plane, so its ends differ in height.
+    let (p, q) = if axis.height(a) < axis.height(b) { (a, b) } else { (b, a) };
     let (from, to) = (f64::from(axis.height(p)), f64::from(axis.height(q)));
     let share = (height - from) / (to - from);
     let (p, q) = (axis.flat(p), axis.flat(q));

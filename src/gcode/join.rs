@@ -1,0 +1,458 @@
+//! One pass over the layers in order: what stands before, between and after them.
+
+use super::plan::{Account, Hop, feed_rate, filament_steps, micrometres, z_feed};
+use super::start::{PrintFacts, end_code, follow, start_code};
+use super::writer::Writer;
+use super::{
+    FILAMENT_STEPS, GcodeError, GcodeOptions, LayerSummary, Limits, Move, Place, RoleUse, bead_area,
+    filament_area, move_times,
+};
+use crate::polygon::dvec2;
+use crate::region::Role;
+use std::collections::BTreeMap;
+
+/// Where the prime line begins, mm from the front left corner of the bed; it ends as far from the
+/// right edge at the latest. Parts seldom reach so far.
+const PRIME_MARGIN: [f64; 2] = [5.0, 3.0];
+
+/// Width of the prime line in nozzle diameters: wide, so that it sticks and carries much.
+const PRIME_WIDTH: f64 = 1.5;
+
+/// What the file says about itself besides moves.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct FileNotes<'a> {
+    /// Whole comment lines for the head of the file, such as thumbnails.
+    pub head: &'a [u8],
+    /// All settings as (path, value), for the foot of the file.
+    pub settings: &'a [(String, String)],
+}
+
+/// A file in pieces.
+#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
+pub struct Joined {
+    /// Text of all that is not inside a layer.
+    pub glue: Vec<u8>,
+    /// The file: these pieces one after another.
+    pub pieces: Vec<Piece>,
+    /// Sums of the whole file.
+    pub totals: Totals,
+}
+
+/// A stretch of bytes: `start..end` of the glue or of a layer's text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Piece {
+    /// Position of the layer in the list given to [`join`]; `None` for the glue.
+    pub layer: Option<u32>,
+    /// First byte.
+    pub start: u32,
+    /// One behind the last byte.
+    pub end: u32,
+}
+
+/// Sums of the whole file, start and end code included.
+#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
+pub struct Totals {
+    /// Number of layers.
+    pub layers: u32,
+    /// Duration of all moves, s. Heating and homing, which no file tells, are left out.
+    pub time_s: f64,
+    /// Filament, mm.
+    pub filament_mm: f64,
+    /// Plastic, mm3.
+    pub volume_mm3: f64,
+    /// Its mass, g.
+    pub mass_g: f64,
+    /// Its price, in the currency of `filament.cost_per_kg`.
+    pub cost: f64,
+    /// Length of moves without extrusion, mm.
+    pub travel_mm: f64,
+    /// Number of retractions.
+    pub retractions: u32,
+    /// Beads by role, the prime line included.
+    pub by_role: BTreeMap<Role, RoleUse>,
+}
+
+/// Writes what surrounds the layers. `layers` are all layers of the print from the bed upwards.
+///
+/// Fails only if start or end code use a placeholder wrongly ([`super::check_templates`]).
+pub fn join(
+    layers: &[LayerSummary],
+    options: &GcodeOptions,
+    notes: &FileNotes<'_>,
+) -> Result<Joined, GcodeError> {
+    let facts = PrintFacts {
+        layer_count: layers.len(),
+        first_layer_height: layers.first().map_or(0.0, |l| l.height),
+        print_height: layers.last().map_or(0.0, |l| l.print_z),
+    };
+    let start_text = start_code(options, facts)?;
+    let end_text = end_code(options, facts)?;
+    let mut route = Route::new(options);
+    let start = route.start(&start_text, facts);
+    let ways: Vec<Way> = layers.iter().map(|layer| route.reach(layer)).collect();
+    let end = route.end(&end_text);
+    let totals = route.totals(layers.len());
+
+    let mut file = FileWriter::new(options, totals.time_s);
+    file.head(notes);
+    file.text(&start_text);
+    file.progress(0.0);
+    file.way(&start);
+    for (k, (layer, way)) in layers.iter().zip(&ways).enumerate() {
+        file.layer(k, layer, way);
+    }
+    file.way(&end);
+    file.text(&end_text);
+    file.progress(totals.time_s);
+    file.foot(&totals, notes);
+    let (glue, pieces) = file.finish();
+    Ok(Joined { glue, pieces, totals })
+}
+
+/// The file itself, for native callers: the pieces one after another.
+pub fn assemble(joined: &Joined, texts: &[impl AsRef<[u8]>]) -> Vec<u8> {
+    let mut file = Vec::new();
+    for piece in &joined.pieces {
+        let source = piece.layer.map_or(&joined.glue[..], |k| texts[k as usize].as_ref());
+        file.extend_from_slice(&source[piece.start as usize..piece.end as usize]);
+    }
+    file
+}
+
+/// A duration in words: `1d 2h 3m 4s`, leading zeros left out, to the nearest second.
+pub fn format_duration(seconds: f64) -> String {
+    let whole = seconds.max(0.0).round() as u64;
+    let parts = [(whole / 86400, "d"), (whole / 3600 % 24, "h"), (whole / 60 % 60, "m"), (whole % 60, "s")];
+    let first = parts.iter().position(|&(n, _)| n > 0).unwrap_or(3);
+    parts[first..].iter().map(|(n, unit)| format!("{n}{unit}")).collect::<Vec<_>>().join(" ")
+}
+
+/// Moves between two stops that belong to no layer.
+struct Way {
+    moves: Vec<Move>,
+    /// Seconds that pass before the moves (for text of other hands) and with them.
+    time_s: f64,
+}
+
+/// Follows the nozzle from stop to stop and adds up.
+struct Route<'a> {
+    options: &'a GcodeOptions,
+    limits: Limits,
+    at: Place,
+    z: i32,
+    fan: u8,
+    /// Filament that is pulled back, in steps.
+    retracted: i32,
+    time_s: f64,
+    filament_mm: f64,
+    travel_mm: f64,
+    retractions: u32,
+    by_role: BTreeMap<Role, RoleUse>,
+}
+
+impl<'a> Route<'a> {
+    fn new(options: &'a GcodeOptions) -> Self {
+        Route {
+            options,
+            limits: Limits::of(&options.printer),
+            at: Place::default(),
+            z: 0,
+            fan: 0,
+            retracted: 0,
+            time_s: 0.0,
+            filament_mm: 0.0,
+            travel_mm: 0.0,
+            retractions: 0,
+            by_role: BTreeMap::new(),
+        }
+    }
+
+    /// The start code, and the prime line unless the code has extruded something itself.
+    fn start(&mut self, text: &str, facts: PrintFacts) -> Way {
+        let time_s = self.other_hands(text);
+        if self.filament_mm > 0.0 {
+            return Way { moves: Vec::new(), time_s };
+        }
+        let moves = self.prime_line(facts);
+        Way { time_s: time_s + self.book(&moves), moves }
+    }
+
+    /// The line along the front edge that fills the nozzle.
+    fn prime_line(&mut self, facts: PrintFacts) -> Vec<Move> {
+        let GcodeOptions { printer, filament, speed, .. } = self.options;
+        let [x, y] = PRIME_MARGIN;
+        let length = printer.prime_length.min(printer.bed_size[0] - 2.0 * x);
+        if length <= 0.0 || facts.layer_count == 0 {
+            return Vec::new();
+        }
+        // As high as the first layer, if that is a height at which a bead can be laid alone.
+        let height =
+            facts.first_layer_height.clamp(printer.nozzle_diameter / 4.0, printer.nozzle_diameter * 0.75);
+        let width = printer.nozzle_diameter * PRIME_WIDTH;
+        let area = bead_area(width, height);
+        let feed = feed_rate(speed.prime.min(filament.max_volumetric_speed / area));
+        let [from, to] = [dvec2(x, y), dvec2(x + length, y)].map(Place::of);
+        let pushed = area * from.distance(to) / filament_area(filament.diameter);
+        let mut moves = vec![Move::Role(Role::Prime), Move::Width(micrometres(width) as u32)];
+        let lift = Move::Lift { z: micrometres(height), feed: z_feed(self.options) };
+        let travel = Move::Travel { to: from, feed: feed_rate(speed.travel) };
+        // Never across the bed below the line's height. Nothing is retracted: the nozzle is empty.
+        moves.extend(if self.z < micrometres(height) { [lift, travel] } else { [travel, lift] });
+        if self.retracted > 0 {
+            let feed = feed_rate(self.options.retraction.speed);
+            moves.push(Move::Filament { filament: self.retracted, feed });
+        }
+        moves.push(Move::Extrude { to, filament: filament_steps(pushed), feed });
+        moves
+    }
+
+    /// The way to a layer's start. The layer itself is booked as well.
+    fn reach(&mut self, layer: &LayerSummary) -> Way {
+        let Some(stops) = layer.stops else { return Way { moves: Vec::new(), time_s: 0.0 } };
+        let to = Place::of(stops.start);
+        let z = micrometres(layer.print_z);
+        let distance = self.at.distance(to);
+        let mut moves = Vec::new();
+        Hop { to, from_z: self.z, to_z: z, distance, retracted: self.retracted }
+            .moves(self.options, &mut moves);
+        if layer.fan[0] != self.fan {
+            moves.push(Move::Fan(layer.fan[0]));
+        }
+        let time_s = self.book(&moves);
+        self.at = Place::of(stops.end);
+        self.fan = layer.fan[1];
+        self.time_s += layer.time_s;
+        self.filament_mm += layer.filament_mm;
+        self.travel_mm += layer.travel_mm;
+        self.retractions += layer.retractions;
+        for (&role, &used) in &layer.by_role {
+            self.by_role.entry(role).or_default().add(used);
+        }
+        Way { moves, time_s }
+    }
+
+    /// A last retraction, and the end code.
+    fn end(&mut self, text: &str) -> Way {
+        let retraction = &self.options.retraction;
+        let pulled = filament_steps(retraction.length) - self.retracted;
+        let mut moves = Vec::new();
+        if pulled > 0 {
+            moves.push(Move::Filament { filament: -pulled, feed: feed_rate(retraction.speed) });
+        }
+        let time_s = self.book(&moves);
+        Way { moves, time_s: time_s + self.other_hands(text) }
+    }
+
+    /// Books text of other hands and returns its time.
+    fn other_hands(&mut self, text: &str) -> f64 {
+        let effect = follow(text, self.at, self.z);
+        let (from, area) = (self.at, filament_area(self.options.filament.diameter));
+        let times = move_times(from, self.z, &effect.moves, &self.limits);
+        let account = Account::of(from, &effect.moves, &times, area);
+        let filament_mm = f64::from(effect.filament) / FILAMENT_STEPS;
+        if effect.filament > 0 {
+            let beads = account.by_role.values().fold(RoleUse::default(), |mut sum, &used| {
+                sum.add(used);
+                sum
+            });
+            let prime = RoleUse { volume_mm3: filament_mm * area, ..beads };
+            self.by_role.entry(Role::Prime).or_default().add(prime);
+        }
+        self.filament_mm += filament_mm;
+        self.travel_mm += account.travel_mm;
+        self.retractions += account.retractions;
+        self.time_s += account.time_s;
+        (self.at, self.z, self.retracted) = (effect.at, effect.z, effect.retracted);
+        account.time_s
+    }
+
+    /// Books moves of our own and returns their time.
+    fn book(&mut self, moves: &[Move]) -> f64 {
+        let times = move_times(self.at, self.z, moves, &self.limits);
+        let account = Account::of(self.at, moves, &times, filament_area(self.options.filament.diameter));
+        for &step in moves {
+            match step {
+                Move::Lift { z, .. } => self.z = z,
+                Move::Filament { filament, .. } => self.retracted -= filament,
+                Move::Fan(fan) => self.fan = fan,
+                Move::Role(_) | Move::Width(_) | Move::Extrude { .. } | Move::Travel { .. } => {}
+            }
+        }
+        self.at = account.end;
+        self.filament_mm += account.filament as f64 / FILAMENT_STEPS;
+        self.travel_mm += account.travel_mm;
+        self.retractions += account.retractions;
+        self.time_s += account.time_s;
+        for (role, used) in account.by_role {
+            self.by_role.entry(role).or_default().add(used);
+        }
+        account.time_s
+    }
+
+    fn totals(self, layers: usize) -> Totals {
+        let filament = &self.options.filament;
+        let volume_mm3 = self.filament_mm * filament_area(filament.diameter);
+        let mass_g = volume_mm3 / 1000.0 * filament.density;
+        Totals {
+            layers: layers as u32,
+            time_s: self.time_s,
+            filament_mm: self.filament_mm,
+            volume_mm3,
+            mass_g,
+            cost: mass_g / 1000.0 * filament.cost_per_kg,
+            travel_mm: self.travel_mm,
+            retractions: self.retractions,
+            by_role: self.by_role,
+        }
+    }
+}
+
+/// Puts the file together.
+struct FileWriter<'a> {
+    options: &'a GcodeOptions,
+    glue: Vec<u8>,
+    /// End of the glue that is in a piece already.
+    placed: usize,
+    pieces: Vec<Piece>,
+    total_s: f64,
+    passed_s: f64,
+    /// Percent and minutes reported last.
+    reported: Option<(u32, u32)>,
+}
+
+impl<'a> FileWriter<'a> {
+    fn new(options: &'a GcodeOptions, total_s: f64) -> Self {
+        FileWriter {
+            options,
+            glue: Vec::new(),
+            placed: 0,
+            pieces: Vec::new(),
+            total_s,
+            passed_s: 0.0,
+            reported: None,
+        }
+    }
+
+    fn text(&mut self, text: &str) {
+        self.glue.extend_from_slice(text.as_bytes());
+    }
+
+    fn head(&mut self, notes: &FileNotes<'_>) {
+        self.text(concat!("; generated by Foothold ", env!("CARGO_PKG_VERSION"), "\n\n"));
+        self.glue.extend_from_slice(notes.head);
+    }
+
+    fn way(&mut self, way: &Way) {
+        let mut writer = Writer::after(std::mem::take(&mut self.glue));
+        for &step in &way.moves {
+            writer.write(step);
+        }
+        self.glue = writer.out;
+        self.passed_s += way.time_s;
+    }
+
+    /// Says how far the print is after `at_s` seconds, if hosts would show something new.
+    fn progress(&mut self, at_s: f64) {
+        let share = if self.total_s > 0.0 { (at_s / self.total_s).clamp(0.0, 1.0) } else { 1.0 };
+        let percent = if at_s >= self.total_s { 100 } else { ((share * 100.0) as u32).min(99) };
+        let minutes = ((self.total_s - at_s).max(0.0) / 60.0).round() as u32;
+        if self.reported.replace((percent, minutes)) != Some((percent, minutes)) {
+            let line = self.options.printer.flavor.dialect().progress;
+            let line =
+                line.replace("{percent}", &percent.to_string()).replace("{minutes}", &minutes.to_string());
+            self.text(&line);
+        }
+    }
+
+    /// The way to a layer and the layer, cut where progress is reported.
+    fn layer(&mut self, k: usize, layer: &LayerSummary, way: &Way) {
+        let mut writer = Writer::after(std::mem::take(&mut self.glue));
+        writer.comment(b";LAYER_CHANGE", b"");
+        writer.length_comment(b";Z:", micrometres(layer.print_z));
+        writer.length_comment(b";HEIGHT:", micrometres(layer.height));
+        self.glue = writer.out;
+        if k == 1 {
+            self.later_temperatures();
+        }
+        self.progress(self.passed_s);
+        self.way(way);
+        let mut start = 0;
+        for &(offset, seconds) in &layer.marks {
+            let before = self.glue.len();
+            self.progress(self.passed_s + seconds);
+            if self.glue.len() > before {
+                let report = self.glue.split_off(before);
+                self.layer_piece(k, start, offset);
+                self.glue.extend(report);
+                start = offset;
+            }
+        }
+        self.layer_piece(k, start, layer.text_len);
+        self.passed_s += layer.time_s;
+    }
+
+    /// Temperatures from the second layer on, where they differ; nobody waits for them.
+    fn later_temperatures(&mut self) {
+        let filament = &self.options.filament;
+        if filament.nozzle_temp != filament.first_layer_nozzle_temp {
+            self.text(&format!("M104 S{}\n", filament.nozzle_temp));
+        }
+        if filament.bed_temp != filament.first_layer_bed_temp {
+            self.text(&format!("M140 S{}\n", filament.bed_temp));
+        }
+    }
+
+    fn layer_piece(&mut self, k: usize, start: u32, end: u32) {
+        self.glue_piece();
+        if start < end {
+            self.pieces.push(Piece { layer: Some(k as u32), start, end });
+        }
+    }
+
+    fn glue_piece(&mut self) {
+        if self.placed < self.glue.len() {
+            let [start, end] =
+                [self.placed, self.glue.len()].map(|n| u32::try_from(n).expect("glue is far below 4 GiB"));
+            self.pieces.push(Piece { layer: None, start, end });
+            self.placed = self.glue.len();
+        }
+    }
+
+    /// Figures and settings, as PrusaSlicer writes them and hosts read them.
+    fn foot(&mut self, totals: &Totals, notes: &FileNotes<'_>) {
+        self.text("\n");
+        self.text(&format!("; filament used [mm] = {:.2}\n", totals.filament_mm));
+        self.text(&format!("; filament used [cm3] = {:.2}\n", totals.volume_mm3 / 1000.0));
+        self.text(&format!("; filament used [g] = {:.2}\n", totals.mass_g));
+        self.text(&format!("; filament cost = {:.2}\n", totals.cost));
+        let time = format_duration(totals.time_s);
+        self.text(&format!("; estimated printing time (normal mode) = {time}\n\n"));
+        for (path, value) in notes.settings {
+            let one_line = value.replace('\r', "").replace('\n', "\\n");
+            self.text(&format!("; {path} = {one_line}\n"));
+        }
+    }
+
+    fn finish(mut self) -> (Vec<u8>, Vec<Piece>) {
+        self.glue_piece();
+        (self.glue, self.pieces)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn durations_in_words() {
+        for (seconds, words) in [
+            (0.0, "0s"),
+            (3723.4, "1h 2m 3s"),
+            (60.0, "1m 0s"),
+            (90_061.0, "1d 1h 1m 1s"),
+            (3600.0, "1h 0m 0s"),
+        ] {
+            assert_eq!(format_duration(seconds), words);
+        }
+    }
+}

@@ -1,0 +1,206 @@
+//! What printer, filament, speeds and retraction a file is written for.
+
+use super::flavor::Flavor;
+use crate::region::Role;
+
+/// Start code of [`PrinterOptions`]: bed, home, nozzle, in this order.
+const START_GCODE: &str = "\
+M140 S{first_layer_bed_temp} ; heat the bed
+M190 S{first_layer_bed_temp} ; wait for the bed
+G28 ; home all axes
+G1 Z5 F600 ; away from the bed while the nozzle heats
+M109 S{first_layer_nozzle_temp} ; heat the nozzle and wait
+";
+
+/// End code of [`PrinterOptions`]: heaters off, head away, bed forward, motors off.
+const END_GCODE: &str = "\
+M104 S0 ; nozzle off
+M140 S0 ; bed off
+M107 ; fan off
+G1 Z{park_z} F600 ; away from the part
+G1 X0 Y{bed_size_y} F6000 ; present the part
+M84 ; motors off
+";
+
+crate::options! {
+    /// The machine: its size, its firmware and what it can do.
+    pub struct PrinterOptions {
+        /// Size of the bed along x and y. The origin is its front left corner.
+        bed_size: [f64; 2] = [220.0, 220.0], "Bed size", "mm", 10.0..=5000.0;
+        /// Highest print.
+        height: f64 = 250.0, "Print height", "mm", 10.0..=5000.0;
+        /// Diameter of the nozzle's hole.
+        nozzle_diameter: f64 = 0.4, "Nozzle diameter", "mm", 0.1..=3.0;
+        /// The firmware whose dialect is written.
+        flavor: Flavor = Flavor::Marlin, "Firmware";
+        /// G-code before the print. Words in braces such as {bed_temp} are replaced. Heating is added
+        /// where it is missing, so that nothing is extruded cold.
+        start_gcode: String = START_GCODE.to_owned(), "Start G-code";
+        /// G-code after the print, with the same {placeholders}. Switching off is added where it is missing.
+        end_gcode: String = END_GCODE.to_owned(), "End G-code";
+        /// Length of the line that fills the nozzle, drawn along the front edge after the start code; 0
+        /// draws none. None is drawn either if the start code extrudes something itself.
+        prime_length: f64 = 80.0, "Prime line", "mm", 0.0..=1000.0;
+        /// Acceleration while printing.
+        acceleration: f64 = 1500.0, "Acceleration", "mm/s2", 10.0..=100000.0;
+        /// Acceleration of moves without extrusion.
+        travel_acceleration: f64 = 1500.0, "Travel acceleration", "mm/s2", 10.0..=100000.0;
+        /// Acceleration of the filament in retractions.
+        retract_acceleration: f64 = 1500.0, "Retraction acceleration", "mm/s2", 10.0..=100000.0;
+        /// Acceleration of the z axis.
+        z_acceleration: f64 = 100.0, "Z acceleration", "mm/s2", 1.0..=100000.0;
+        /// Highest speed of the x and of the y axis.
+        max_speed_xy: f64 = 300.0, "Highest speed x, y", "mm/s", 1.0..=5000.0;
+        /// Highest speed of the z axis.
+        max_speed_z: f64 = 10.0, "Highest speed z", "mm/s", 0.1..=1000.0;
+        /// Highest speed of the filament.
+        max_speed_e: f64 = 60.0, "Highest speed of the filament", "mm/s", 0.1..=1000.0;
+        /// How far the head may in theory leave a corner on the inside, as Marlin's M205 J; it sets the
+        /// speed in corners, and here only the time estimate.
+        junction_deviation: f64 = 0.013, "Junction deviation", "mm", 0.001..=0.5;
+    }
+}
+
+crate::options! {
+    /// The material.
+    pub struct FilamentOptions {
+        /// Name of the material, for file names and {filament_type}.
+        material: String = "PLA".to_owned(), "Material";
+        /// Diameter of the filament.
+        diameter: f64 = 1.75, "Filament diameter", "mm", 0.5..=5.0;
+        /// Nozzle temperature from the second layer on.
+        nozzle_temp: f64 = 210.0, "Nozzle temperature", "degrees C", 0.0..=500.0;
+        /// Bed temperature from the second layer on; 0 leaves the bed cold.
+        bed_temp: f64 = 60.0, "Bed temperature", "degrees C", 0.0..=200.0;
+        /// Nozzle temperature on the first layer.
+        first_layer_nozzle_temp: f64 = 210.0, "First layer nozzle temperature", "degrees C", 0.0..=500.0;
+        /// Bed temperature on the first layer; 0 leaves the bed cold.
+        first_layer_bed_temp: f64 = 60.0, "First layer bed temperature", "degrees C", 0.0..=200.0;
+        /// Mass per volume.
+        density: f64 = 1.24, "Density", "g/cm3", 0.1..=20.0;
+        /// Price of a kilogram, in any currency.
+        cost_per_kg: f64 = 20.0, "Cost per kilogram", "", 0.0..=100000.0;
+        /// Most plastic that the nozzle melts in a second; speeds are lowered to keep within it.
+        max_volumetric_speed: f64 = 12.0, "Highest volumetric speed", "mm3/s", 0.1..=1000.0;
+        /// Fan while printing, as a share of full speed.
+        fan_speed: f64 = 1.0, "Fan", "", 0.0..=1.0;
+        /// Fan on bridges, as a share of full speed.
+        bridge_fan_speed: f64 = 1.0, "Fan on bridges", "", 0.0..=1.0;
+        /// Number of layers at the bottom that are printed without fan.
+        fan_first_layers: u32 = 1, "Layers without fan", "", 0.0..=1000.0;
+    }
+}
+
+crate::options! {
+    /// How fast each kind of bead is printed. The first layer has its own, lower limit, and
+    /// `filament.max_volumetric_speed` holds everywhere.
+    pub struct SpeedOptions {
+        /// The loop that is seen from outside.
+        outer_wall: f64 = 30.0, "Outer wall", "mm/s", 1.0..=2000.0;
+        /// Loops inside the outer wall.
+        inner_wall: f64 = 50.0, "Inner walls", "mm/s", 1.0..=2000.0;
+        /// Stretches of wall with too little below them.
+        overhang_wall: f64 = 20.0, "Overhanging walls", "mm/s", 1.0..=2000.0;
+        /// Beads that fill what is left between others.
+        gap_fill: f64 = 30.0, "Gap fill", "mm/s", 1.0..=2000.0;
+        /// Solid areas with nothing below.
+        bottom_skin: f64 = 40.0, "Bottom skin", "mm/s", 1.0..=2000.0;
+        /// Solid areas with nothing above.
+        top_skin: f64 = 30.0, "Top skin", "mm/s", 1.0..=2000.0;
+        /// Solid areas between skins and infill.
+        solid_infill: f64 = 50.0, "Solid infill", "mm/s", 1.0..=2000.0;
+        /// Sparse infill.
+        infill: f64 = 60.0, "Infill", "mm/s", 1.0..=2000.0;
+        /// Lines held at both ends only.
+        bridge: f64 = 25.0, "Bridges", "mm/s", 1.0..=2000.0;
+        /// Smoothing pass over a top.
+        ironing: f64 = 15.0, "Ironing", "mm/s", 1.0..=2000.0;
+        /// Loops around everything that touch nothing.
+        skirt: f64 = 40.0, "Skirt", "mm/s", 1.0..=2000.0;
+        /// Loops that touch the first layer.
+        brim: f64 = 40.0, "Brim", "mm/s", 1.0..=2000.0;
+        /// The tear-off brim of teeth.
+        teeth: f64 = 40.0, "Teeth", "mm/s", 1.0..=2000.0;
+        /// Layers below the part.
+        raft: f64 = 40.0, "Raft", "mm/s", 1.0..=2000.0;
+        /// Supports.
+        support: f64 = 50.0, "Support", "mm/s", 1.0..=2000.0;
+        /// Dense support layers next to the part.
+        support_interface: f64 = 40.0, "Support interface", "mm/s", 1.0..=2000.0;
+        /// The line that fills the nozzle.
+        prime: f64 = 20.0, "Prime line", "mm/s", 1.0..=2000.0;
+        /// Where a tool is cleaned.
+        wipe_tower: f64 = 50.0, "Wipe tower", "mm/s", 1.0..=2000.0;
+        /// Moves without extrusion.
+        travel: f64 = 150.0, "Travel", "mm/s", 1.0..=2000.0;
+        /// Moves of the z axis, as far as the printer allows.
+        travel_z: f64 = 10.0, "Travel along z", "mm/s", 0.1..=1000.0;
+    }
+}
+
+crate::options! {
+    /// Filament pulled back for travels.
+    pub struct RetractionOptions {
+        /// How far the filament is pulled back; 0 never retracts.
+        length: f64 = 0.8, "Retraction length", "mm", 0.0..=50.0;
+        /// Speed of the filament, back and forth.
+        speed: f64 = 35.0, "Retraction speed", "mm/s", 0.1..=500.0;
+        /// How far the nozzle is lifted for a travel with retraction; 0 stays on the layer.
+        z_hop: f64 = 0.0, "Z hop", "mm", 0.0..=10.0;
+        /// Shorter travels are made without retraction.
+        min_travel: f64 = 1.5, "Shortest travel with retraction", "mm", 0.0..=1000.0;
+    }
+}
+
+impl SpeedOptions {
+    /// Speed asked for beads of a role, mm/s.
+    pub fn of(&self, role: Role) -> f64 {
+        match role {
+            Role::OuterWall => self.outer_wall,
+            Role::InnerWall => self.inner_wall,
+            Role::OverhangWall => self.overhang_wall,
+            Role::GapFill => self.gap_fill,
+            Role::BottomSkin => self.bottom_skin,
+            Role::TopSkin => self.top_skin,
+            Role::SolidInfill => self.solid_infill,
+            Role::Infill => self.infill,
+            Role::Bridge => self.bridge,
+            Role::Ironing => self.ironing,
+            Role::Skirt => self.skirt,
+            Role::Brim => self.brim,
+            Role::Teeth => self.teeth,
+            Role::Raft => self.raft,
+            Role::Support => self.support,
+            Role::SupportInterface => self.support_interface,
+            Role::Prime => self.prime,
+            Role::WipeTower => self.wipe_tower,
+        }
+    }
+}
+
+/// All that this stage needs to know, put together by the pipeline.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct GcodeOptions {
+    /// Settings `printer.*`.
+    pub printer: PrinterOptions,
+    /// Settings `filament.*`.
+    pub filament: FilamentOptions,
+    /// Settings `speed.*`.
+    pub speed: SpeedOptions,
+    /// Settings `retraction.*`.
+    pub retraction: RetractionOptions,
+    /// Setting `first_layer.speed`, mm/s: no bead of the first layer is printed faster. Default 25.
+    pub first_layer_speed: f64,
+}
+
+impl Default for GcodeOptions {
+    fn default() -> Self {
+        GcodeOptions {
+            printer: PrinterOptions::default(),
+            filament: FilamentOptions::default(),
+            speed: SpeedOptions::default(),
+            retraction: RetractionOptions::default(),
+            first_layer_speed: 25.0,
+        }
+    }
+}

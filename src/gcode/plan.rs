@@ -1,0 +1,357 @@
+//! Paths of one layer, in printing order, to the moves of the machine.
+
+use super::extrude::{Feeder, bead_area};
+use super::{FILAMENT_STEPS, GcodeOptions, LayerInput, LayerSummary, Move, Place, RoleUse, Stops};
+use crate::region::{Path, Role, Width};
+use std::collections::BTreeMap;
+
+/// Where a bead changes its width it is cut into pieces of one width each, so that flow and the
+/// stated width agree; this is the step of width from piece to piece, mm. The bead is then off by at
+/// most half of it, 0.01 mm, less than nozzles repeat.
+const WIDTH_STEP: f64 = 0.02;
+
+/// Pieces of a bead of changing width are not made shorter than this, mm, or firmwares that read a
+/// thousand lines a second stutter at usual speeds.
+const SHORTEST_PIECE: f64 = 0.1;
+
+/// A bead of changing width states a new width when the flow departs from the stated one by more
+/// than this share: well within the 1 % promised, and few enough lines.
+const WIDTH_TOLERANCE: f64 = 0.005;
+
+/// The moves of one layer, from stop to stop.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LayerPlan {
+    /// Place of the layer in the print.
+    pub index: u32,
+    /// Height of the nozzle and thickness of the layer, mm, as given.
+    pub print_z: f64,
+    /// See `print_z`.
+    pub height: f64,
+    /// Where the first bead starts.
+    pub start: Place,
+    /// Height of the nozzle, micrometres.
+    pub z: i32,
+    /// Fan at start and end.
+    pub fan: [u8; 2],
+    /// What the machine does; empty if there are no paths.
+    pub moves: Vec<Move>,
+}
+
+/// Plans one layer. Paths without length are left out.
+pub fn plan_layer(layer: &LayerInput<'_>, options: &GcodeOptions) -> LayerPlan {
+    let mut planner = Planner::new(layer, options);
+    for path in layer.paths {
+        planner.path(path);
+    }
+    LayerPlan {
+        index: layer.index,
+        print_z: layer.print_z,
+        height: layer.height,
+        start: planner.start.unwrap_or_default(),
+        z: planner.z,
+        fan: [planner.first_fan.unwrap_or(planner.layer_fan), planner.fan],
+        moves: planner.moves,
+    }
+}
+
+/// mm/s as a feed rate in mm/min, rounded down so that limits hold; at least 1.
+pub(super) fn feed_rate(speed: f64) -> u32 {
+    ((speed * 60.0).floor() as u32).max(1)
+}
+
+/// mm of filament in the text's steps.
+pub(super) fn filament_steps(length: f64) -> i32 {
+    (length * FILAMENT_STEPS).round() as i32
+}
+
+/// mm as micrometres.
+pub(super) fn micrometres(length: f64) -> i32 {
+    (length * 1000.0).round() as i32
+}
+
+/// Feed rate of moves along z.
+pub(super) fn z_feed(options: &GcodeOptions) -> u32 {
+    feed_rate(options.speed.travel_z.min(options.printer.max_speed_z))
+}
+
+struct Planner<'a> {
+    options: &'a GcodeOptions,
+    index: u32,
+    height: f64,
+    z: i32,
+    feeder: Feeder,
+    layer_fan: u8,
+    /// State of the machine while the moves are laid down.
+    start: Option<Place>,
+    at: Place,
+    role: Option<Role>,
+    stated_width: Option<u32>,
+    first_fan: Option<u8>,
+    fan: u8,
+    moves: Vec<Move>,
+}
+
+impl<'a> Planner<'a> {
+    fn new(layer: &LayerInput<'_>, options: &'a GcodeOptions) -> Self {
+        let points: usize = layer.paths.iter().map(|p| p.points.len() + 1).sum();
+        let mut planner = Planner {
+            options,
+            index: layer.index,
+            height: layer.height,
+            z: micrometres(layer.print_z),
+            feeder: Feeder::new(options.filament.diameter),
+            layer_fan: 0,
+            start: None,
+            at: Place::default(),
+            role: None,
+            stated_width: None,
+            first_fan: None,
+            fan: 0,
+            moves: Vec::with_capacity(points + 5 * layer.paths.len()),
+        };
+        planner.layer_fan = planner.duty(options.filament.fan_speed);
+        planner.fan = planner.layer_fan;
+        planner
+    }
+
+    fn path(&mut self, path: &Path) {
+        let places: Vec<Place> = path.points.iter().map(|&p| Place::of(p)).collect();
+        let Some((&first, rest)) = places.split_first() else { return };
+        if rest.iter().all(|&p| p == first) {
+            return;
+        }
+        self.go_to(first);
+        self.set_role(path.role);
+        match &path.width {
+            Width::Uniform(width) => self.uniform(path, &places, *width),
+            Width::Varying(widths) => self.varying(path, &places, widths),
+        }
+    }
+
+    /// Beads of one width along the whole path.
+    fn uniform(&mut self, path: &Path, places: &[Place], width: f64) {
+        let area = bead_area(width, self.height);
+        let feed = self.bead_feed(path.role, area);
+        self.state_width(micrometres(width).max(0) as u32);
+        for &to in &places[1..] {
+            self.bead(to, area, feed);
+        }
+        if path.closed {
+            self.bead(places[0], area, feed);
+        }
+    }
+
+    /// Beads whose width changes linearly from point to point. Missing widths repeat the last one.
+    fn varying(&mut self, path: &Path, places: &[Place], widths: &[f64]) {
+        let width = |i: usize| widths.get(i).or(widths.last()).copied().unwrap_or(0.0);
+        for (i, &to) in places.iter().enumerate().skip(1) {
+            self.tapered(path.role, to, [width(i - 1), width(i)]);
+        }
+        if path.closed {
+            self.tapered(path.role, places[0], [width(places.len() - 1), width(0)]);
+        }
+    }
+
+    /// A straight bead from `from` to `to` wide, in pieces of one width each.
+    fn tapered(&mut self, role: Role, to: Place, [from_width, to_width]: [f64; 2]) {
+        let (start, end) = (self.at.mm(), to.mm());
+        let wanted = ((to_width - from_width).abs() / WIDTH_STEP).ceil();
+        let room = (start.distance(end) / SHORTEST_PIECE).floor().max(1.0);
+        let pieces = wanted.clamp(1.0, room) as u32;
+        for k in 0..pieces {
+            let share = |part: f64| (f64::from(k) + part) / f64::from(pieces);
+            let width = from_width + (to_width - from_width) * share(0.5);
+            let area = bead_area(width, self.height);
+            self.state_nearly(width, area);
+            let piece_end = if k + 1 == pieces { to } else { Place::of(start.lerp(end, share(1.0))) };
+            self.bead(piece_end, area, self.bead_feed(role, area));
+        }
+    }
+
+    fn bead(&mut self, to: Place, area: f64, feed: u32) {
+        if to == self.at {
+            return;
+        }
+        let filament = self.feeder.filament(area * self.at.distance(to));
+        self.moves.push(Move::Extrude { to, filament, feed });
+        self.at = to;
+    }
+
+    /// Feed rate of a bead: its role's, the first layer's and the nozzle's limit.
+    fn bead_feed(&self, role: Role, area: f64) -> u32 {
+        let wanted = self.options.speed.of(role);
+        let layer = if self.index == 0 { self.options.first_layer_speed } else { f64::INFINITY };
+        // An area of 0 gives an infinite limit, which the others overrule.
+        let melted = self.options.filament.max_volumetric_speed / area;
+        feed_rate(wanted.min(layer).min(melted))
+    }
+
+    fn set_role(&mut self, role: Role) {
+        if self.role != Some(role) {
+            self.role = Some(role);
+            self.stated_width = None;
+            self.moves.push(Move::Role(role));
+        }
+        let fan = match role {
+            Role::Bridge => self.duty(self.options.filament.bridge_fan_speed),
+            _ => self.layer_fan,
+        };
+        if self.first_fan.is_none() {
+            self.first_fan = Some(fan);
+        } else if fan != self.fan {
+            self.moves.push(Move::Fan(fan));
+        }
+        self.fan = fan;
+    }
+
+    fn duty(&self, share: f64) -> u8 {
+        if self.index < self.options.filament.fan_first_layers { 0 } else { (share * 255.0).round() as u8 }
+    }
+
+    fn state_width(&mut self, width: u32) {
+        if self.stated_width != Some(width) {
+            self.stated_width = Some(width);
+            self.moves.push(Move::Width(width));
+        }
+    }
+
+    /// States a width unless the stated one gives nearly the same flow.
+    fn state_nearly(&mut self, width: f64, area: f64) {
+        let stated = self.stated_width.map(|w| bead_area(f64::from(w) / 1000.0, self.height));
+        if stated.is_none_or(|s| (s - area).abs() > WIDTH_TOLERANCE * area) {
+            self.state_width(micrometres(width).max(0) as u32);
+        }
+    }
+
+    fn go_to(&mut self, to: Place) {
+        if self.start.is_none() {
+            self.start = Some(to);
+        } else if self.at != to {
+            let travel =
+                Hop { to, from_z: self.z, to_z: self.z, distance: self.at.distance(to), retracted: 0 };
+            travel.moves(self.options, &mut self.moves);
+        }
+        self.at = to;
+    }
+}
+
+/// A move without extrusion, with what goes before and after it.
+pub(super) struct Hop {
+    pub(super) to: Place,
+    /// Heights of the nozzle before and after, micrometres.
+    pub(super) from_z: i32,
+    pub(super) to_z: i32,
+    /// How far it is, mm.
+    pub(super) distance: f64,
+    /// Filament that is pulled back already.
+    pub(super) retracted: i32,
+}
+
+impl Hop {
+    /// Retracts and lifts if the way is long enough, travels, and undoes both.
+    pub(super) fn moves(&self, options: &GcodeOptions, moves: &mut Vec<Move>) {
+        let retraction = &options.retraction;
+        let long = self.distance >= retraction.min_travel && retraction.length > 0.0;
+        let pulled =
+            if long { filament_steps(retraction.length).max(self.retracted) } else { self.retracted };
+        let hop = if long { micrometres(retraction.z_hop) } else { 0 };
+        let travel_z = self.from_z.max(self.to_z) + hop;
+        let z_feed = z_feed(options);
+        let filament_feed = feed_rate(retraction.speed);
+        if pulled > self.retracted {
+            moves.push(Move::Filament { filament: self.retracted - pulled, feed: filament_feed });
+        }
+        if travel_z != self.from_z {
+            moves.push(Move::Lift { z: travel_z, feed: z_feed });
+        }
+        if self.distance > 0.0 {
+            moves.push(Move::Travel { to: self.to, feed: feed_rate(options.speed.travel) });
+        }
+        if travel_z != self.to_z {
+            moves.push(Move::Lift { z: self.to_z, feed: z_feed });
+        }
+        if pulled > 0 {
+            moves.push(Move::Filament { filament: pulled, feed: filament_feed });
+        }
+    }
+}
+
+impl LayerPlan {
+    /// Adds up the moves. `times` holds the seconds of each move, `filament_area` is in mm2.
+    pub(super) fn summary(&self, times: &[f64], filament_area: f64) -> LayerSummary {
+        let account = Account::of(self.start, &self.moves, times, filament_area);
+        LayerSummary {
+            index: self.index,
+            print_z: self.print_z,
+            height: self.height,
+            stops: (!self.moves.is_empty()).then(|| Stops { start: self.start.mm(), end: account.end.mm() }),
+            fan: self.fan,
+            time_s: account.time_s,
+            filament_mm: account.filament as f64 / FILAMENT_STEPS,
+            travel_mm: account.travel_mm,
+            retractions: account.retractions,
+            by_role: account.by_role,
+            ..LayerSummary::default()
+        }
+    }
+}
+
+/// What a row of moves adds up to.
+#[derive(Debug, Default)]
+pub(super) struct Account {
+    pub(super) end: Place,
+    pub(super) time_s: f64,
+    /// Filament of beads, in steps.
+    pub(super) filament: i64,
+    pub(super) travel_mm: f64,
+    pub(super) retractions: u32,
+    pub(super) by_role: BTreeMap<Role, RoleUse>,
+}
+
+impl Account {
+    pub(super) fn of(start: Place, moves: &[Move], times: &[f64], filament_area: f64) -> Account {
+        let mut sum = Account { end: start, ..Account::default() };
+        let mut role = Role::Prime;
+        let mut beads = BeadSum::default();
+        for (&step, &time) in moves.iter().zip(times) {
+            sum.time_s += time;
+            match step {
+                Move::Role(next) => {
+                    sum.close(role, std::mem::take(&mut beads), filament_area);
+                    role = next;
+                }
+                Move::Extrude { to, filament, .. } => {
+                    beads.filament += i64::from(filament);
+                    beads.length += sum.end.distance(to);
+                    beads.time += time;
+                    sum.end = to;
+                }
+                Move::Travel { to, .. } => {
+                    sum.travel_mm += sum.end.distance(to);
+                    sum.end = to;
+                }
+                Move::Filament { filament, .. } => sum.retractions += u32::from(filament < 0),
+                Move::Width(_) | Move::Fan(_) | Move::Lift { .. } => {}
+            }
+        }
+        sum.close(role, beads, filament_area);
+        sum
+    }
+
+    /// Books the beads since the last change of role.
+    fn close(&mut self, role: Role, beads: BeadSum, filament_area: f64) {
+        if beads.length > 0.0 {
+            let volume_mm3 = beads.filament as f64 / FILAMENT_STEPS * filament_area;
+            let used = RoleUse { length_mm: beads.length, volume_mm3, time_s: beads.time };
+            self.by_role.entry(role).or_default().add(used);
+        }
+        self.filament += beads.filament;
+    }
+}
+
+#[derive(Default)]
+struct BeadSum {
+    filament: i64,
+    length: f64,
+    time: f64,
+}

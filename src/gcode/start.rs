@@ -1,0 +1,400 @@
+//! Start and end code: the user's templates, filled in, and made safe where they leave something out.
+
+use super::read::{ReadMove, Reader};
+use super::{GcodeOptions, Move, Place, PrinterOptions};
+use crate::polygon::dvec2;
+use std::fmt;
+
+/// Units, positions and extrusion that all later text counts on, whatever the user's code has set.
+const KNOWN_STATE: &str = "G21 ; millimetres\nG90 ; absolute positions\nM83 ; relative extrusion\n";
+
+/// Names that templates may use in braces.
+const PLACEHOLDERS: [&str; 19] = [
+    "acceleration",
+    "bed_size_x",
+    "bed_size_y",
+    "bed_temp",
+    "filament_diameter",
+    "filament_type",
+    "first_layer_bed_temp",
+    "first_layer_height",
+    "first_layer_nozzle_temp",
+    "layer_count",
+    "nozzle_diameter",
+    "nozzle_temp",
+    "park_z",
+    "print_height",
+    "printer_height",
+    "retract_acceleration",
+    "smaller_acceleration",
+    "travel_acceleration",
+    "travel_speed",
+];
+
+/// How far the head rises above the print before it goes away ({park_z}), mm.
+const PARK_ABOVE: f64 = 10.0;
+
+/// What is wrong with start or end code.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum GcodeError {
+    /// A word in braces that means nothing.
+    UnknownPlaceholder {
+        /// Path of the setting.
+        setting: &'static str,
+        /// Line of the template, from 1.
+        line: usize,
+        /// The word.
+        name: String,
+    },
+    /// A brace without its partner in the same line.
+    LooseBrace {
+        /// Path of the setting.
+        setting: &'static str,
+        /// Line of the template, from 1.
+        line: usize,
+    },
+}
+
+impl fmt::Display for GcodeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            GcodeError::UnknownPlaceholder { setting, line, name } => {
+                write!(
+                    f,
+                    "{setting}: line {line}: unknown placeholder {{{name}}}; known are {}",
+                    PLACEHOLDERS.join(", ")
+                )
+            }
+            GcodeError::LooseBrace { setting, line } => {
+                write!(f, "{setting}: line {line}: a brace without its partner")
+            }
+        }
+    }
+}
+
+impl std::error::Error for GcodeError {}
+
+/// Checks the placeholders of start and end code, so that [`super::join()`] cannot fail later.
+pub fn check_templates(printer: &PrinterOptions) -> Result<(), GcodeError> {
+    let blank = |_: &str| Some(String::new());
+    for (setting, template) in
+        [("printer.start_gcode", &printer.start_gcode), ("printer.end_gcode", &printer.end_gcode)]
+    {
+        expand(template, setting, |name| PLACEHOLDERS.contains(&name).then(|| blank(name)).flatten())?;
+    }
+    Ok(())
+}
+
+/// Facts about the print that templates may ask for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PrintFacts {
+    pub(super) layer_count: usize,
+    pub(super) first_layer_height: f64,
+    pub(super) print_height: f64,
+}
+
+/// The start code ready to be written.
+pub(super) fn start_code(options: &GcodeOptions, facts: PrintFacts) -> Result<String, GcodeError> {
+    let printer = &options.printer;
+    let template = &printer.start_gcode;
+    let fill = |name: &str| placeholder(name, options, facts);
+    let own = expand(template, "printer.start_gcode", fill)?;
+    let accelerations = expand(printer.flavor.dialect().accelerations, "printer.flavor", fill)?;
+    let heating = Heating::of(template, &own);
+    let filament = &options.filament;
+
+    let mut text = format!("{KNOWN_STATE}M107 ; fan off\n{accelerations}");
+    if !heating.bed && filament.first_layer_bed_temp > 0.0 {
+        let temp = filament.first_layer_bed_temp;
+        text += &format!("M140 S{temp} ; heat the bed\nM190 S{temp} ; wait for the bed\n");
+    }
+    let wait = format!("M109 S{} ; heat the nozzle and wait\n", filament.first_layer_nozzle_temp);
+    if heating.nozzle == NozzleHeating::TooLate {
+        text += &wait;
+    }
+    push_block(&mut text, &own);
+    if heating.nozzle == NozzleHeating::Missing {
+        text += &wait;
+    }
+    text += KNOWN_STATE;
+    text += "G92 E0\n";
+    Ok(text)
+}
+
+/// The end code ready to be written.
+pub(super) fn end_code(options: &GcodeOptions, facts: PrintFacts) -> Result<String, GcodeError> {
+    let template = &options.printer.end_gcode;
+    let own = expand(template, "printer.end_gcode", |name| placeholder(name, options, facts))?;
+    let mut text = String::new();
+    push_block(&mut text, &own);
+    for (command, line) in
+        [("M104", "M104 S0 ; nozzle off\n"), ("M140", "M140 S0 ; bed off\n"), ("M107", "M107 ; fan off\n")]
+    {
+        if !own.lines().any(|l| command_of(l) == command) {
+            text += line;
+        }
+    }
+    Ok(text)
+}
+
+/// Appends lines, ending with a line feed, without carriage returns.
+fn push_block(text: &mut String, block: &str) {
+    for line in block.lines() {
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+}
+
+/// Replaces the words in braces.
+fn expand(
+    template: &str,
+    setting: &'static str,
+    value: impl Fn(&str) -> Option<String>,
+) -> Result<String, GcodeError> {
+    let mut out = String::with_capacity(template.len());
+    for (line, mut rest) in (1..).zip(template.split_inclusive('\n')) {
+        while let Some((before, after)) = rest.split_once('{') {
+            let (name, behind) = after.split_once('}').ok_or(GcodeError::LooseBrace { setting, line })?;
+            let unknown = || GcodeError::UnknownPlaceholder { setting, line, name: name.trim().to_owned() };
+            out += before;
+            out += &value(name.trim()).ok_or_else(unknown)?;
+            rest = behind;
+        }
+        if rest.contains('}') {
+            return Err(GcodeError::LooseBrace { setting, line });
+        }
+        out += rest;
+    }
+    Ok(out)
+}
+
+/// The value of a placeholder; `None` if there is none of this name.
+fn placeholder(name: &str, options: &GcodeOptions, facts: PrintFacts) -> Option<String> {
+    let GcodeOptions { printer, filament, speed, .. } = options;
+    let number = match name {
+        "acceleration" => printer.acceleration,
+        "bed_size_x" => printer.bed_size[0],
+        "bed_size_y" => printer.bed_size[1],
+        "bed_temp" => filament.bed_temp,
+        "filament_diameter" => filament.diameter,
+        // One line, whatever the name holds.
+        "filament_type" => return Some(filament.material.replace(char::is_control, " ")),
+        "first_layer_bed_temp" => filament.first_layer_bed_temp,
+        "first_layer_height" => facts.first_layer_height,
+        "first_layer_nozzle_temp" => filament.first_layer_nozzle_temp,
+        "layer_count" => return Some(facts.layer_count.to_string()),
+        "nozzle_diameter" => printer.nozzle_diameter,
+        "nozzle_temp" => filament.nozzle_temp,
+        "park_z" => (facts.print_height + PARK_ABOVE).min(printer.height).max(facts.print_height),
+        "print_height" => facts.print_height,
+        "printer_height" => printer.height,
+        "retract_acceleration" => printer.retract_acceleration,
+        "smaller_acceleration" => printer.acceleration.min(printer.travel_acceleration),
+        "travel_acceleration" => printer.travel_acceleration,
+        "travel_speed" => speed.travel,
+        _ => return None,
+    };
+    // Micrometres hide what binary fractions add: 0.2 * 3 is 0.6000000000000001.
+    Some(((number * 1000.0).round() / 1000.0).to_string())
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum NozzleHeating {
+    /// The code waits for a hot nozzle before it extrudes.
+    Done,
+    /// It never waits, nor does it extrude.
+    Missing,
+    /// It extrudes before it waits, or without waiting.
+    TooLate,
+}
+
+/// What start code does about temperatures.
+///
+/// M140 or M190 heat the bed, M109 waits for the nozzle. A command that is handed a temperature by
+/// placeholder does so too, except M104, which does not wait: Klipper's macros, such as
+/// `PRINT_START EXTRUDER={nozzle_temp}`.
+struct Heating {
+    bed: bool,
+    nozzle: NozzleHeating,
+}
+
+impl Heating {
+    /// Judges by the template and what it became; lines correspond.
+    fn of(template: &str, expanded: &str) -> Heating {
+        let heats_bed =
+            |line: &str| matches!(command_of(line).as_str(), "M140" | "M190") || names(line, "bed_temp}");
+        let waits = |line: &str| match command_of(line).as_str() {
+            "M109" => true,
+            "M104" => false,
+            _ => names(line, "nozzle_temp}"),
+        };
+        let waits_at = template.lines().position(waits);
+        let mut steps = Reader::new(expanded.as_bytes());
+        let extrudes_at = steps.find(|step| step.filament_mm != 0.0).map(|step| step.line as usize - 1);
+        let nozzle = match (waits_at, extrudes_at) {
+            (Some(wait), Some(first)) if first < wait => NozzleHeating::TooLate,
+            (Some(_), _) => NozzleHeating::Done,
+            (None, Some(_)) => NozzleHeating::TooLate,
+            (None, None) => NozzleHeating::Missing,
+        };
+        Heating { bed: template.lines().any(heats_bed), nozzle }
+    }
+}
+
+/// Whether the line outside comments uses a placeholder that ends like this.
+fn names(line: &str, ending: &str) -> bool {
+    line.split(';').next().unwrap_or_default().contains(ending)
+}
+
+/// The command of a line in capitals, such as `M109`; empty for a comment.
+fn command_of(line: &str) -> String {
+    let code = line.split(';').next().unwrap_or_default().trim_start();
+    code.chars()
+        .take_while(|c| c.is_ascii_alphanumeric() || *c == '_')
+        .collect::<String>()
+        .to_ascii_uppercase()
+}
+
+/// What text of other hands, start or end code, does to the machine.
+#[derive(Debug)]
+pub(super) struct CodeEffect {
+    /// Its moves, to be timed.
+    pub(super) moves: Vec<Move>,
+    /// Where the nozzle is afterwards, and its height in micrometres.
+    pub(super) at: Place,
+    pub(super) z: i32,
+    /// Filament used: the farthest that it was pushed, in steps of 1e-5 mm.
+    pub(super) filament: i32,
+    /// How far it is pulled back at the end, in steps.
+    pub(super) retracted: i32,
+}
+
+/// Follows text from a place and height on.
+pub(super) fn follow(text: &str, at: Place, z: i32) -> CodeEffect {
+    let mut reader = Reader::from_place(text.as_bytes(), [at.mm().x, at.mm().y, f64::from(z) / 1000.0]);
+    let mut moves = Vec::new();
+    let (mut pushed, mut farthest) = (0.0_f64, 0.0_f64);
+    for step in &mut reader {
+        pushed += step.filament_mm;
+        farthest = farthest.max(pushed);
+        push_moves(&step, &mut moves);
+    }
+    let [x, y, z] = reader.place();
+    CodeEffect {
+        moves,
+        at: Place::of(dvec2(x, y)),
+        z: super::plan::micrometres(z),
+        filament: super::plan::filament_steps(farthest),
+        retracted: super::plan::filament_steps(farthest - pushed),
+    }
+}
+
+/// A move of the text as moves of the plan: z apart from the plane, which only the timing notices.
+fn push_moves(step: &ReadMove, moves: &mut Vec<Move>) {
+    // Text that has not set a feed rate moves at the firmware's own; 50 mm/s is as good as any.
+    let feed = if step.speed > 0.0 { super::plan::feed_rate(step.speed) } else { 3000 };
+    let filament = super::plan::filament_steps(step.filament_mm);
+    let to = Place::of(dvec2(step.to[0], step.to[1]));
+    if step.from[2] != step.to[2] {
+        moves.push(Move::Lift { z: super::plan::micrometres(step.to[2]), feed });
+    }
+    match (step.moves_in_plane(), filament) {
+        (true, f) if f > 0 => moves.push(Move::Extrude { to, filament, feed }),
+        (true, _) => moves.push(Move::Travel { to, feed }),
+        (false, 0) => {}
+        (false, _) => moves.push(Move::Filament { filament, feed }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn options(start: &str) -> GcodeOptions {
+        let printer = PrinterOptions { start_gcode: start.to_owned(), ..PrinterOptions::default() };
+        GcodeOptions { printer, ..GcodeOptions::default() }
+    }
+
+    const FACTS: PrintFacts = PrintFacts { layer_count: 3, first_layer_height: 0.2, print_height: 0.6 };
+
+    fn started(start: &str) -> String {
+        start_code(&options(start), FACTS).expect("good template")
+    }
+
+    /// Index of the first line that starts so.
+    fn line(text: &str, start: &str) -> Option<usize> {
+        text.lines().position(|l| l.starts_with(start))
+    }
+
+    #[test]
+    fn placeholders_are_filled_in() {
+        let text = started("M117 {layer_count} layers of {filament_type}\nG1 X{bed_size_x} Z{ park_z }\n");
+        assert!(text.contains("M117 3 layers of PLA\nG1 X220 Z10.6\n"), "{text}");
+    }
+
+    #[test]
+    fn an_unknown_placeholder_names_setting_line_and_word() {
+        let found = start_code(&options("G28\nM109 S{temp}\n"), FACTS).expect_err("unknown");
+        assert!(
+            found
+                .to_string()
+                .starts_with("printer.start_gcode: line 2: unknown placeholder {temp}; known are ")
+        );
+        assert_eq!(check_templates(&options("G28\nM109 S{temp}\n").printer), Err(found));
+        assert!(check_templates(&PrinterOptions::default()).is_ok());
+        for loose in ["M109 S{bed_temp", "M109 S}"] {
+            let found = check_templates(&options(loose).printer).expect_err("loose brace");
+            assert_eq!(found.to_string(), "printer.start_gcode: line 1: a brace without its partner");
+        }
+    }
+
+    #[test]
+    fn every_placeholder_has_a_value() {
+        for name in PLACEHOLDERS {
+            assert!(placeholder(name, &GcodeOptions::default(), FACTS).is_some(), "{name}");
+        }
+    }
+
+    #[test]
+    fn code_that_heats_is_left_alone() {
+        let text = started(&PrinterOptions::default().start_gcode);
+        assert_eq!(text.matches("M109").count(), 1);
+        assert_eq!(text.matches("M190").count(), 1);
+        assert!(line(&text, "M190") < line(&text, "G28") && line(&text, "G28") < line(&text, "M109"));
+        let macros = started("PRINT_START BED={first_layer_bed_temp} NOZZLE={first_layer_nozzle_temp}");
+        assert!(!macros.contains("M109") && !macros.contains("M190"), "{macros}");
+    }
+
+    #[test]
+    fn missing_heating_is_added() {
+        let text = started("G28 ; and no M109");
+        assert!(
+            line(&text, "M190 S60") < line(&text, "G28") && line(&text, "G28") < line(&text, "M109 S210")
+        );
+        let without_wait = started("M104 S{nozzle_temp}\nG28");
+        assert!(line(&without_wait, "M109 S210") > line(&without_wait, "G28"));
+    }
+
+    #[test]
+    fn heating_goes_first_where_the_code_extrudes_too_early() {
+        for early in ["G28\nG1 X50 E5 F600", "G28\nG1 E3 F60\nM109 S200"] {
+            let text = started(early);
+            assert!(line(&text, "M109 S210") < line(&text, "G28"), "{text}");
+        }
+    }
+
+    #[test]
+    fn code_that_ends_retracted_is_seen() {
+        let effect = follow("G28\nG1 Z0.3\nG92 E0\nG1 X80 E9 F1200\nG1 E8.2 F2100", Place::default(), 0);
+        assert_eq!((effect.filament, effect.retracted), (900_000, 80_000));
+        assert_eq!((effect.at, effect.z), (Place { x: 80_000, y: 0 }, 300));
+    }
+
+    #[test]
+    fn end_code_switches_off_what_it_forgot() {
+        let printer =
+            PrinterOptions { end_gcode: "M104 S0\nG28 X\n".to_owned(), ..PrinterOptions::default() };
+        let text = end_code(&GcodeOptions { printer, ..GcodeOptions::default() }, FACTS).expect("good");
+        assert_eq!(text, "M104 S0\nG28 X\nM140 S0 ; bed off\nM107 ; fan off\n");
+    }
+}

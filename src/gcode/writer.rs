@@ -1,0 +1,238 @@
+//! Moves to text. A part can need 50 MB of it, so numbers are printed by integer arithmetic, each
+//! line in a small buffer of its own and then appended at once.
+
+use super::plan::LayerPlan;
+use super::{MARK_EVERY_S, Move, Place};
+use crate::region::Role;
+
+/// Longest line of a move: letters, signs, 10 digits and a point for each of four words, with room.
+const LINE: usize = 80;
+
+/// Name in `;TYPE:` comments, as PrusaSlicer writes them and viewers read them (PRODUCT.md 4).
+pub const fn type_name(role: Role) -> &'static str {
+    match role {
+        Role::OuterWall => "External perimeter",
+        Role::InnerWall => "Perimeter",
+        Role::OverhangWall => "Overhang perimeter",
+        Role::GapFill => "Gap fill",
+        Role::BottomSkin | Role::SolidInfill => "Solid infill",
+        Role::TopSkin => "Top solid infill",
+        Role::Infill => "Internal infill",
+        Role::Bridge => "Bridge infill",
+        Role::Ironing => "Ironing",
+        Role::Skirt | Role::Brim | Role::Teeth => "Skirt/Brim",
+        Role::Raft | Role::Support => "Support material",
+        Role::SupportInterface => "Support material interface",
+        Role::Prime => "Custom",
+        Role::WipeTower => "Wipe tower",
+    }
+}
+
+/// The text of a layer; `marks` gets the places where progress can be reported.
+pub(super) fn write_layer(plan: &LayerPlan, times: &[f64], marks: &mut Vec<(u32, f64)>) -> Vec<u8> {
+    // A line of a bead has some 27 bytes.
+    let mut writer = Writer::after(Vec::with_capacity(plan.moves.len() * 28));
+    let (mut passed, mut marked) = (0.0, 0.0);
+    for (&step, &time) in plan.moves.iter().zip(times) {
+        if passed - marked >= MARK_EVERY_S {
+            marks.push((writer.out.len() as u32, passed));
+            marked = passed;
+        }
+        writer.write(step);
+        passed += time;
+    }
+    writer.out
+}
+
+/// Writes moves, leaving out words that have not changed since it began.
+#[derive(Debug, Default)]
+pub(super) struct Writer {
+    pub(super) out: Vec<u8>,
+    at: Option<Place>,
+    feed: Option<u32>,
+}
+
+impl Writer {
+    /// A writer that goes on behind `out`, without knowing what the machine did there.
+    pub(super) fn after(out: Vec<u8>) -> Writer {
+        Writer { out, at: None, feed: None }
+    }
+
+    /// Appends one move.
+    pub(super) fn write(&mut self, step: Move) {
+        match step {
+            Move::Role(role) => self.comment(b";TYPE:", type_name(role).as_bytes()),
+            Move::Width(width) => self.line(|line| line.text(b";WIDTH:").thousandths(i64::from(width))),
+            Move::Fan(0) => self.out.extend_from_slice(b"M107\n"),
+            Move::Fan(duty) => self.line(|line| line.text(b"M106 S").integer(u32::from(duty))),
+            Move::Extrude { to, filament, feed } => {
+                let (at, feed) = (self.at.replace(to), self.new_feed(feed));
+                self.line(|line| {
+                    line.text(b"G1")
+                        .place(at, to)
+                        .text(b" E")
+                        .hundred_thousandths(i64::from(filament))
+                        .feed(feed)
+                });
+            }
+            Move::Travel { to, feed } => {
+                let (at, feed) = (self.at.replace(to), self.new_feed(feed));
+                self.line(|line| line.text(b"G1").place(at, to).feed(feed));
+            }
+            Move::Filament { filament, feed } => {
+                let feed = self.new_feed(feed);
+                self.line(|line| line.text(b"G1 E").hundred_thousandths(i64::from(filament)).feed(feed));
+            }
+            Move::Lift { z, feed } => {
+                let feed = self.new_feed(feed);
+                self.line(|line| line.text(b"G1 Z").thousandths(i64::from(z)).feed(feed));
+            }
+        }
+    }
+
+    /// Appends a comment of one name and one value, both without line feeds.
+    pub(super) fn comment(&mut self, name: &[u8], value: &[u8]) {
+        self.out.extend_from_slice(name);
+        self.out.extend_from_slice(value);
+        self.out.push(b'\n');
+    }
+
+    /// Appends a comment of a name and a length in micrometres, as mm.
+    pub(super) fn length_comment(&mut self, name: &[u8], micrometres: i32) {
+        self.line(|line| line.text(name).thousandths(i64::from(micrometres)));
+    }
+
+    /// The feed rate if it has to be written.
+    fn new_feed(&mut self, feed: u32) -> Option<u32> {
+        (self.feed.replace(feed) != Some(feed)).then_some(feed)
+    }
+
+    fn line(&mut self, fill: impl FnOnce(&mut Line) -> &mut Line) {
+        let mut line = Line { bytes: [0; LINE], len: 0 };
+        fill(&mut line).byte(b'\n');
+        self.out.extend_from_slice(&line.bytes[..line.len]);
+    }
+}
+
+/// One line being put together. Numbers have at most 20 characters and there are at most four, so
+/// that [`LINE`] is never full.
+struct Line {
+    bytes: [u8; LINE],
+    len: usize,
+}
+
+impl Line {
+    fn byte(&mut self, byte: u8) -> &mut Self {
+        self.bytes[self.len] = byte;
+        self.len += 1;
+        self
+    }
+
+    fn text(&mut self, text: &[u8]) -> &mut Self {
+        self.bytes[self.len..self.len + text.len()].copy_from_slice(text);
+        self.len += text.len();
+        self
+    }
+
+    /// X and Y words, without the one that stays as it was.
+    fn place(&mut self, from: Option<Place>, to: Place) -> &mut Self {
+        if from.is_none_or(|f| f.x != to.x) {
+            self.text(b" X").thousandths(i64::from(to.x));
+        }
+        if from.is_none_or(|f| f.y != to.y) {
+            self.text(b" Y").thousandths(i64::from(to.y));
+        }
+        self
+    }
+
+    fn feed(&mut self, feed: Option<u32>) -> &mut Self {
+        match feed {
+            Some(feed) => self.text(b" F").integer(feed),
+            None => self,
+        }
+    }
+
+    /// A number given in thousandths, trailing zeros dropped.
+    fn thousandths(&mut self, value: i64) -> &mut Self {
+        let size = self.sign(value);
+        self.integer(size / 1000).fraction(size % 1000, 100)
+    }
+
+    /// A number given in hundred thousandths, trailing zeros dropped.
+    fn hundred_thousandths(&mut self, value: i64) -> &mut Self {
+        let size = self.sign(value);
+        self.integer(size / 100_000).fraction(size % 100_000, 10_000)
+    }
+
+    /// Writes the minus of a value that fits 32 bits and returns its size.
+    fn sign(&mut self, value: i64) -> u32 {
+        if value < 0 {
+            self.byte(b'-');
+        }
+        value.unsigned_abs() as u32
+    }
+
+    fn integer(&mut self, value: u32) -> &mut Self {
+        let mut place = 1;
+        while place <= value / 10 {
+            place *= 10;
+        }
+        let mut rest = value;
+        while place > 0 {
+            self.byte(b'0' + (rest / place) as u8);
+            rest %= place;
+            place /= 10;
+        }
+        self
+    }
+
+    /// The digits behind the point, the first one worth `place`, as far as they are not 0.
+    fn fraction(&mut self, mut rest: u32, mut place: u32) -> &mut Self {
+        if rest > 0 {
+            self.byte(b'.');
+        }
+        while rest > 0 {
+            self.byte(b'0' + (rest / place) as u8);
+            rest %= place;
+            place /= 10;
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn written(moves: &[Move]) -> String {
+        let mut writer = Writer::default();
+        moves.iter().for_each(|&m| writer.write(m));
+        String::from_utf8(writer.out).expect("ASCII")
+    }
+
+    #[test]
+    fn words_that_do_not_change_are_left_out() {
+        let to = |x, y| Place { x, y };
+        let moves = [
+            Move::Role(Role::OuterWall),
+            Move::Width(450),
+            Move::Travel { to: to(10_000, -20_500), feed: 9000 },
+            Move::Extrude { to: to(10_000, 20_001), filament: 137_090, feed: 1500 },
+            Move::Extrude { to: to(-7, 20_001), filament: 3, feed: 1500 },
+            Move::Filament { filament: -80_000, feed: 2100 },
+            Move::Lift { z: 200, feed: 600 },
+            Move::Fan(255),
+            Move::Fan(0),
+        ];
+        let text = ";TYPE:External perimeter\n;WIDTH:0.45\nG1 X10 Y-20.5 F9000\nG1 Y20.001 E1.3709 F1500\n\
+                    G1 X-0.007 E0.00003\nG1 E-0.8 F2100\nG1 Z0.2 F600\nM106 S255\nM107\n";
+        assert_eq!(written(&moves), text);
+    }
+
+    #[test]
+    fn the_longest_line_fits() {
+        let to = Place { x: i32::MIN, y: i32::MIN };
+        let text = written(&[Move::Extrude { to, filament: i32::MIN, feed: u32::MAX }]);
+        assert_eq!(text, "G1 X-2147483.648 Y-2147483.648 E-21474.83648 F4294967295\n");
+    }
+}

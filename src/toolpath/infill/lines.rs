@@ -1,0 +1,277 @@
+//! Parallel lines clipped to an area, and linked along its border where it is filled solidly.
+//!
+//! In the hatch's own frame lines run along u; line k lies at v = (k + 1/2) distance, counted from
+//! the bed's origin, so that lines of different islands and layers meet.
+
+use std::f64::consts::FRAC_1_SQRT_2;
+
+use crate::polygon::{Contour, DVec2, Join, PolygonSet, dvec2};
+use crate::region::{Path, Role};
+use crate::toolpath::bead::Bead;
+
+/// A family of parallel lines.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hatch {
+    /// Unit vector along the lines.
+    direction: DVec2,
+    /// Distance between neighbouring lines, mm.
+    distance: f64,
+}
+
+impl Hatch {
+    /// Lines at 45 degrees on even layers, at 135 degrees on odd ones.
+    pub fn diagonal(layer: u32, distance: f64) -> Hatch {
+        let across = if layer.is_multiple_of(2) { FRAC_1_SQRT_2 } else { -FRAC_1_SQRT_2 };
+        Hatch { direction: dvec2(across, FRAC_1_SQRT_2), distance }
+    }
+
+    fn to_frame(self, p: DVec2) -> DVec2 {
+        dvec2(p.dot(self.direction), self.direction.perp_dot(p))
+    }
+
+    fn to_plane(self, p: DVec2) -> DVec2 {
+        self.direction * p.x + self.direction.perp() * p.y
+    }
+
+    fn offset_of(self, line: i64) -> f64 {
+        (line as f64 + 0.5) * self.distance
+    }
+
+    /// Lines whose offset lies in [low, high).
+    fn lines_between(self, low: f64, high: f64) -> std::ops::Range<i64> {
+        let first_at = |v: f64| (v / self.distance - 0.5).ceil() as i64;
+        first_at(low)..first_at(high)
+    }
+}
+
+/// Where a line of the hatch crosses the border.
+#[derive(Debug, Clone, Copy)]
+struct Crossing {
+    line: i64,
+    /// Position along the line.
+    u: f64,
+    /// Which contour, and which of its edges.
+    contour: usize,
+    edge: usize,
+    /// Sine of the angle between line and edge, in (0, 1].
+    sine: f64,
+}
+
+/// The crossings of a hatch with an area, in the order in which they lie along the contours, and
+/// how they hang together.
+struct Weave {
+    hatch: Hatch,
+    crossings: Vec<Crossing>,
+    /// The other end of each crossing's piece of line.
+    partner: Vec<usize>,
+    /// Neighbours along the contour.
+    next: Vec<usize>,
+    previous: Vec<usize>,
+}
+
+impl Weave {
+    fn new(area: &PolygonSet, hatch: Hatch) -> Weave {
+        let mut crossings = Vec::new();
+        let (mut next, mut previous) = (Vec::new(), Vec::new());
+        for (index, contour) in area.contours().iter().enumerate() {
+            let first = crossings.len();
+            cross_contour(&mut crossings, hatch, index, contour);
+            let count = crossings.len() - first;
+            next.extend((0..count).map(|i| first + (i + 1) % count));
+            previous.extend((0..count).map(|i| first + (i + count - 1) % count));
+        }
+        let partner = pair_along_lines(&crossings);
+        Weave { hatch, crossings, partner, next, previous }
+    }
+
+    /// Crossings in the order of lines, and along each line.
+    fn in_line_order(&self) -> Vec<usize> {
+        sorted_along_lines(&self.crossings)
+    }
+
+    fn point(&self, index: usize) -> DVec2 {
+        let c = &self.crossings[index];
+        self.hatch.to_plane(dvec2(c.u, self.hatch.offset_of(c.line)))
+    }
+}
+
+fn cross_contour(crossings: &mut Vec<Crossing>, hatch: Hatch, contour: usize, ring: &Contour) {
+    for (edge, (a, b)) in ring.edges().enumerate() {
+        let (a, b) = (hatch.to_frame(a), hatch.to_frame(b));
+        let sine = ((b.y - a.y) / a.distance(b)).abs();
+        let at = |line: i64| {
+            let u = a.x + (b.x - a.x) * ((hatch.offset_of(line) - a.y) / (b.y - a.y));
+            Crossing { line, u, contour, edge, sine }
+        };
+        let lines = hatch.lines_between(a.y.min(b.y), a.y.max(b.y));
+        if a.y < b.y {
+            crossings.extend(lines.map(at));
+        } else {
+            crossings.extend(lines.rev().map(at));
+        }
+    }
+}
+
+fn sorted_along_lines(crossings: &[Crossing]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..crossings.len()).collect();
+    order.sort_by(|&a, &b| {
+        let (a, b) = (&crossings[a], &crossings[b]);
+        a.line.cmp(&b.line).then(a.u.total_cmp(&b.u))
+    });
+    order
+}
+
+/// Along each line crossings go in, out, in, out: each contour crosses it an even number of times.
+fn pair_along_lines(crossings: &[Crossing]) -> Vec<usize> {
+    let mut partner = vec![0; crossings.len()];
+    for pair in sorted_along_lines(crossings).chunks_exact(2) {
+        (partner[pair[0]], partner[pair[1]]) = (pair[1], pair[0]);
+    }
+    partner
+}
+
+/// The pieces of the hatch's lines inside the area, line by line.
+pub fn hatch(area: &PolygonSet, hatch: Hatch) -> Vec<(DVec2, DVec2)> {
+    let weave = Weave::new(area, hatch);
+    let order = weave.in_line_order();
+    order.chunks_exact(2).map(|pair| (weave.point(pair[0]), weave.point(pair[1]))).collect()
+}
+
+/// A link along the border may be this many line distances long.
+const LONGEST_LINK: f64 = 3.0;
+
+/// Fills the area with lines that lie side by side, linked along the border to long beads. Returns
+/// them and what of the area is too narrow for a bead.
+///
+/// The links run half a spacing inside the border; an end without a link is drawn out to the
+/// border. Both ways the strip along the border is filled exactly once.
+pub fn hatch_linked(area: &PolygonSet, role: Role, bead: Bead, hatch: Hatch) -> (Vec<Path>, PolygonSet) {
+    let half = bead.spacing() / 2.0;
+    let core = area.offset(-half, Join::WALL);
+    let narrow = area.difference(&core.offset(half, Join::WALL)).opened(bead.width / 8.0, Join::WALL);
+    let weave = Weave::new(&core, hatch);
+    let mut laid = vec![false; weave.crossings.len()];
+    let mut paths = Vec::new();
+    for start in weave.in_line_order() {
+        if !laid[start] {
+            let points = lay_from(&weave, &core, half, start, &mut laid);
+            paths.push(Path::open(role, points, bead.width));
+        }
+    }
+    (paths, narrow)
+}
+
+/// One bead: line, link, line, ... until no unlaid line is within reach of the end.
+fn lay_from(weave: &Weave, core: &PolygonSet, half: f64, start: usize, laid: &mut [bool]) -> Vec<DVec2> {
+    let mut points = vec![drawn_out(weave, start, half)];
+    let mut here = start;
+    loop {
+        let end = weave.partner[here];
+        (laid[here], laid[end]) = (true, true);
+        match nearest_link(weave, core, end, laid) {
+            None => {
+                points.push(drawn_out(weave, end, half));
+                return points;
+            }
+            Some((to, link)) => {
+                points.push(weave.point(end));
+                points.extend(link);
+                points.push(weave.point(to));
+                here = to;
+            }
+        }
+    }
+}
+
+/// The end of a line moved on to the border of the area, which lies `half` outside the core.
+fn drawn_out(weave: &Weave, index: usize, half: f64) -> DVec2 {
+    let reach = (half / weave.crossings[index].sine).min(2.0 * half);
+    let (here, far) = (weave.point(index), weave.point(weave.partner[index]));
+    here + (here - far).normalize_or_zero() * reach
+}
+
+/// The shorter way along the border from `end` to the end of an unlaid neighbouring line, with the
+/// border's vertices in between.
+fn nearest_link(weave: &Weave, core: &PolygonSet, end: usize, laid: &[bool]) -> Option<(usize, Vec<DVec2>)> {
+    let ways = [(weave.next[end], true), (weave.previous[end], false)];
+    let open = ways.into_iter().filter(|&(to, _)| !laid[to] && is_neighbour(weave, end, to));
+    let links = open.map(|(to, forward)| (to, border_between(weave, core, end, to, forward)));
+    let measured = links.map(|(to, link)| (link_length(weave, end, to, &link), to, link));
+    let shortest = measured.min_by(|a, b| a.0.total_cmp(&b.0));
+    shortest.filter(|l| l.0 <= LONGEST_LINK * weave.hatch.distance).map(|(_, to, link)| (to, link))
+}
+
+fn is_neighbour(weave: &Weave, a: usize, b: usize) -> bool {
+    a != b && (weave.crossings[a].line - weave.crossings[b].line).abs() <= 1
+}
+
+fn link_length(weave: &Weave, from: usize, to: usize, between: &[DVec2]) -> f64 {
+    let stops = std::iter::once(weave.point(from)).chain(between.iter().copied());
+    let next = between.iter().copied().chain(std::iter::once(weave.point(to)));
+    stops.zip(next).map(|(a, b)| a.distance(b)).sum()
+}
+
+/// Vertices of the border between two crossings that are neighbours along it; none where the way
+/// would go round most of the contour.
+fn border_between(weave: &Weave, core: &PolygonSet, from: usize, to: usize, forward: bool) -> Vec<DVec2> {
+    let (a, b) = (&weave.crossings[from], &weave.crossings[to]);
+    let points = &core.contours()[a.contour].points;
+    let n = points.len();
+    let (first, last) = if forward { (a.edge, b.edge) } else { (b.edge, a.edge) };
+    let wraps = first == last && forward == (to < from);
+    let count = if wraps { n } else { (last + n - first) % n };
+    let mut between: Vec<DVec2> = (1..=count).map(|i| points[(first + i) % n]).collect();
+    if !forward {
+        between.reverse();
+    }
+    between
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BEAD: Bead = Bead { width: 0.45, height: 0.2 };
+
+    fn plastic(paths: &[Path]) -> f64 {
+        paths.iter().map(Path::length).sum::<f64>() * BEAD.spacing()
+    }
+
+    #[test]
+    fn a_solid_square_gets_its_area_in_plastic() {
+        let square = PolygonSet::rectangle(dvec2(3.0, 1.0), dvec2(23.0, 21.0));
+        for layer in 0..2 {
+            let hatch = Hatch::diagonal(layer, BEAD.spacing());
+            let (paths, narrow) = hatch_linked(&square, Role::SolidInfill, BEAD, hatch);
+            assert!(narrow.is_empty());
+            assert!((plastic(&paths) / 400.0 - 1.0).abs() < 0.005, "{}", plastic(&paths));
+            assert!(paths.len() <= 3, "{} beads", paths.len());
+        }
+    }
+
+    #[test]
+    fn lines_stay_inside_and_their_distance_gives_the_density() {
+        let square = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(40.0, 40.0));
+        let pieces = hatch(&square, Hatch::diagonal(0, 2.0));
+        let total: f64 = pieces.iter().map(|(a, b)| a.distance(*b)).sum();
+        assert!((total * 2.0 / 1600.0 - 1.0).abs() < 0.01);
+        let grown = square.bounds().map(|b| b.grown(1e-6));
+        for (a, b) in pieces {
+            assert!((b - a).perp_dot(dvec2(1.0, 1.0)).abs() < 1e-6);
+            let piece = crate::polygon::measure::Bounds::of_points(&[a, b]);
+            assert!(grown.zip(piece).is_some_and(|(g, p)| g.contains(p)));
+        }
+    }
+
+    #[test]
+    fn a_strip_narrower_than_a_bead_is_handed_back() {
+        let strip = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(10.0, 0.3));
+        let (paths, narrow) = fill(&strip);
+        assert!(paths.is_empty());
+        assert!((narrow.area() - 3.0).abs() < 1e-3);
+    }
+
+    fn fill(area: &PolygonSet) -> (Vec<Path>, PolygonSet) {
+        hatch_linked(area, Role::SolidInfill, BEAD, Hatch::diagonal(0, BEAD.spacing()))
+    }
+}

@@ -1,0 +1,132 @@
+//! One bead of varying width along the middle of a thin area.
+//!
+//! For what plain offsets cannot fill: walls thinner than two beads, strokes of letters, strips left
+//! between walls. The centre line is the medial axis, the width twice the distance to the border.
+//! The steps:
+//!
+//! 1. [`border`]: the outline with points every [`STEP_MM`] at least, and its constrained Delaunay
+//!    triangulation (crate `spade`).
+//! 2. [`axis`]: the chordal axis [Prasad 1997, "Morphological analysis of shapes"]: triangles with
+//!    two inner edges are links of a branch, with three junctions, with one ends. The middles of the
+//!    inner edges are moved onto the true medial axis (equal distance to both sides), so that the
+//!    triangulation gives only the order and not the accuracy.
+//! 3. [`chains`]: spurs into corners go, and at each junction the straightest and longest two
+//!    branches become one line.
+//! 4. [`bead`]: ends carried to the border, widths clamped, few points.
+//!
+//! Variable-width beads along the medial axis as in [Kuipers, Doubrovski, Wu, Wang 2020, "A framework
+//! for adaptive width control of dense contour-parallel toolpaths"], with one bead instead of many:
+//! where the area is wider than `max_width` the bead is not, and the rest is reported.
+//! Why this way: `docs/decisions/0001-medial-axis.md`.
+
+mod axis;
+mod bead;
+mod border;
+mod chains;
+
+use crate::polygon::{DVec2, Join, Polygon, PolygonSet, by_x_then_y};
+use crate::region::{Path, Role};
+
+/// Largest distance of neighbouring points on the triangulated outline, mm. About a bead's width:
+/// closer points make more triangles and no better line, wider ones miss turns of the axis.
+const STEP_MM: f64 = 0.4;
+
+/// An outline whose edges cross after rounding is simplified by these and tried again, mm.
+const RETRY_TOLERANCES_MM: [f64; 2] = [0.002, 0.02];
+
+/// How thin areas are filled.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ThinFill {
+    /// What the beads are for.
+    pub role: Role,
+    /// Smallest width of a bead, mm; thinner places get a bead of this width and are overfilled.
+    pub min_width: f64,
+    /// Largest width of a bead, mm; of thicker places the middle is filled and the rest reported.
+    pub max_width: f64,
+    /// Where the area is thinner than this there is no bead, mm. 0 follows needles to their tips.
+    pub min_thickness: f64,
+    /// Beads shorter than this, their ends included, are left out, mm.
+    pub min_length: f64,
+    /// Distance from the end of the centre line to the end of the strip, in bead widths: 0.5 lets a
+    /// round end touch the border, 0 ends the line on the border. The default is pi/8, with which a
+    /// round end covers as much as the strip's square one.
+    pub end_inset: f64,
+}
+
+impl Default for ThinFill {
+    fn default() -> Self {
+        ThinFill {
+            role: Role::GapFill,
+            min_width: 0.2,
+            max_width: 0.9,
+            min_thickness: 0.1,
+            min_length: 0.4,
+            end_inset: std::f64::consts::FRAC_PI_8,
+        }
+    }
+}
+
+/// The beads in a thin area and what they leave.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ThinBeads {
+    /// Open and closed beads, each open one starting at its smaller (x, y), ordered by their points.
+    pub paths: Vec<Path>,
+    /// Area without a bead, mm2: beside clamped beads, in places too thin and on lines too short.
+    /// Corners that a bead's width does not reach are not counted.
+    pub left_mm2: f64,
+    /// Places (a point of the outline) where no medial axis was found and loops of `min_width` follow
+    /// the outline instead. Empty in all shapes known so far.
+    pub fallbacks: Vec<DVec2>,
+}
+
+/// Fills an area that is everywhere thinner than `options.max_width` with beads along its middle.
+///
+/// A strip gives one open path, a ring one closed path. At junctions one line goes through and the
+/// others end at its side. Widths lie within `min_width..=max_width`; one that changes by less than
+/// 2 % is [`Width::Uniform`](crate::region::Width::Uniform).
+pub fn fill_thin(area: &PolygonSet, options: &ThinFill) -> ThinBeads {
+    let mut beads = ThinBeads::default();
+    for island in area.islands() {
+        fill_island(&island, options, &mut beads);
+    }
+    beads.paths.sort_by(|a, b| compare_points(&a.points, &b.points));
+    beads
+}
+
+fn fill_island(island: &Polygon, options: &ThinFill, beads: &mut ThinBeads) {
+    if island.area() < options.min_thickness * options.min_length / 2.0 {
+        beads.left_mm2 += island.area();
+        return;
+    }
+    if let Some(triangles) = border::triangulate(std::slice::from_ref(island), STEP_MM) {
+        return fill_triangles(&triangles, options, beads);
+    }
+    let set = island.clone().into_set();
+    let retry = |tolerance: &f64| border::triangulate(&set.simplified(*tolerance).islands(), STEP_MM);
+    match RETRY_TOLERANCES_MM.iter().find_map(retry) {
+        Some(triangles) => fill_triangles(&triangles, options, beads),
+        None => follow_outline(&set, options, beads),
+    }
+}
+
+fn fill_triangles(triangles: &border::Triangles, options: &ThinFill, beads: &mut ThinBeads) {
+    let axis = axis::chordal_axis(triangles);
+    for chain in chains::chains(axis) {
+        bead::lay(&chain, triangles, options, beads);
+    }
+}
+
+/// Loops of the smallest width along the outline: crude, but printable and never far off.
+fn follow_outline(island: &PolygonSet, options: &ThinFill, beads: &mut ThinBeads) {
+    beads.fallbacks.extend(island.contours().first().and_then(|c| c.points.first()));
+    let loops = island.offset(-options.min_width / 2.0, Join::WALL);
+    let covered = loops.length() * options.min_width;
+    beads.left_mm2 += (island.area() - covered).max(0.0);
+    let paths = loops.into_contours().into_iter();
+    beads.paths.extend(paths.map(|c| Path::closed(options.role, c.points, options.min_width)));
+}
+
+fn compare_points(a: &[DVec2], b: &[DVec2]) -> std::cmp::Ordering {
+    let by_points = a.iter().zip(b).map(|(&p, &q)| by_x_then_y(p, q));
+    by_points.fold(std::cmp::Ordering::Equal, |found, next| found.then(next)).then(a.len().cmp(&b.len()))
+}

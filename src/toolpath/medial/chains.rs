@@ -1,0 +1,238 @@
+//! From branches to the lines that are printed in one go.
+
+use super::axis::{Axis, Branch, Node, Sample};
+use crate::polygon::DVec2;
+
+/// A branch that ends at a corner is a spur when it reaches less than this far out of the circle at
+/// its junction, in radii of that circle. A right angle's spur reaches sqrt(2) - 1 = 0.41 radii, one
+/// of 77 degrees 0.6.
+pub(super) const SPUR_REACH: f64 = 0.6;
+
+/// Junctions closer than this, in radii of the smaller circle, are one: a crossing whose arms are a
+/// little out of line.
+const SAME_JUNCTION: f64 = 0.6;
+
+/// How far from a junction, in radii, the direction of a branch is measured. Nearer, the axis bends
+/// towards the junction.
+const DIRECTION_AT: f64 = 2.0;
+
+/// What length is worth against straightness when a junction chooses its through line: the shorter
+/// of the two branches, as a share of the longest one there, times this, is added to the cosine of
+/// the turn.
+const LENGTH_WEIGHT: f64 = 0.5;
+
+/// How a line ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum End {
+    /// At the end of a strip, whose outline is `tip` mm away where the axis meets it.
+    Strip { tip: f64 },
+    /// In a junction, on the line that goes through it.
+    Junction,
+}
+
+/// A line of the axis to be filled by one bead.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Chain {
+    pub(super) line: Vec<Sample>,
+    /// How the line starts and ends; `None` for a closed line.
+    pub(super) ends: Option<[End; 2]>,
+}
+
+/// Removes spurs and joins the branches that go on straight through a junction.
+pub(super) fn chains(axis: Axis) -> Vec<Chain> {
+    let Axis { nodes, mut branches } = axis;
+    let mut node_count = branches.len() + 1;
+    // Each round removes at least one branch.
+    while branches.len() < node_count {
+        node_count = branches.len();
+        let partners = partners(nodes.len(), &branches, |_, halves| match halves {
+            &[a, b] => Some([a, b]),
+            _ => None,
+        });
+        branches = without_spurs(&nodes, joined(branches, &partners));
+    }
+    let branches = contracted(&nodes, branches);
+    let degrees: Vec<usize> = halves_of_nodes(nodes.len(), &branches).iter().map(Vec::len).collect();
+    let partners = partners(nodes.len(), &branches, straightest);
+    let end = |node: u32, last: Option<&Sample>| match (degrees[node as usize], last) {
+        (0 | 1, Some(&last)) => End::Strip { tip: tip(nodes[node as usize], last) },
+        _ => End::Junction,
+    };
+    let chain = |b: Branch| {
+        let ends = b.ends.map(|[first, last]| [end(first, b.line.first()), end(last, b.line.last())]);
+        Chain { line: b.line, ends }
+    };
+    joined(branches, &partners).into_iter().map(chain).collect()
+}
+
+/// One end of a branch: twice the branch's number, plus one for the end of its line.
+type Half = usize;
+
+fn halves_of_nodes(nodes: usize, branches: &[Branch]) -> Vec<Vec<Half>> {
+    let mut halves = vec![Vec::new(); nodes];
+    for (b, branch) in branches.iter().enumerate() {
+        for (e, &node) in branch.ends.iter().flatten().enumerate() {
+            halves[node as usize].push(2 * b + e);
+        }
+    }
+    halves
+}
+
+/// For each half the one that continues it, as `choose` says for each node.
+fn partners(
+    nodes: usize,
+    branches: &[Branch],
+    choose: impl Fn(&[Branch], &[Half]) -> Option<[Half; 2]>,
+) -> Vec<Option<Half>> {
+    let mut partners = vec![None; 2 * branches.len()];
+    for halves in halves_of_nodes(nodes, branches) {
+        if let Some([a, b]) = choose(branches, &halves) {
+            (partners[a], partners[b]) = (Some(b), Some(a));
+        }
+    }
+    partners
+}
+
+/// The branches put together where they have partners.
+fn joined(branches: Vec<Branch>, partners: &[Option<Half>]) -> Vec<Branch> {
+    let mut used = vec![false; branches.len()];
+    let mut result = Vec::with_capacity(branches.len());
+    let open = (0..partners.len()).filter(|&h| partners[h].is_none() && branches[h / 2].ends.is_some());
+    for start in open.chain(0..partners.len()) {
+        if used[start / 2] {
+            continue;
+        }
+        let mut line: Vec<Sample> = Vec::new();
+        let mut half = start;
+        let last = loop {
+            used[half / 2] = true;
+            append(&mut line, &branches[half / 2].line, half % 2 == 1);
+            match partners[half ^ 1] {
+                Some(next) if !used[next / 2] => half = next,
+                _ => break half ^ 1,
+            }
+        };
+        let is_closed = partners[start].is_some();
+        let node = |h: Half| branches[h / 2].ends.map(|ends| ends[h % 2]);
+        let ends = node(start).zip(node(last)).map(|(a, b)| [a, b]).filter(|_| !is_closed);
+        if is_closed && line.len() > 1 && line.first().map(|s| s.at) == line.last().map(|s| s.at) {
+            line.pop();
+        }
+        result.push(Branch { ends, line });
+    }
+    result
+}
+
+fn append(line: &mut Vec<Sample>, more: &[Sample], reversed: bool) {
+    let mut push = |s: &Sample| {
+        if line.last().is_none_or(|l| l.at != s.at) {
+            line.push(*s);
+        }
+    };
+    if reversed { more.iter().rev().for_each(&mut push) } else { more.iter().for_each(&mut push) }
+}
+
+/// Drops the branches that only run into a corner of a wider place.
+fn without_spurs(nodes: &[Node], branches: Vec<Branch>) -> Vec<Branch> {
+    let halves = halves_of_nodes(nodes.len(), &branches);
+    let mut dropped = vec![false; branches.len()];
+    for (node, halves_here) in nodes.iter().zip(&halves) {
+        let Node::Junction(junction) = node else { continue };
+        if halves_here.len() < 3 {
+            continue;
+        }
+        let spur = |&h: &Half| {
+            let reach = reach(nodes, &halves, &branches[h / 2], h, junction.radius)?;
+            (reach <= SPUR_REACH * junction.radius).then_some((reach, h))
+        };
+        let mut spurs: Vec<(f64, Half)> = halves_here.iter().filter_map(spur).collect();
+        spurs.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        // A blob of nothing but spurs keeps the two longest as its line.
+        let keep = if spurs.len() == halves_here.len() { 2 } else { 0 };
+        for (_, h) in &spurs[..spurs.len() - keep] {
+            dropped[h / 2] = true;
+        }
+    }
+    branches.into_iter().zip(dropped).filter(|(_, dropped)| !dropped).map(|(b, _)| b).collect()
+}
+
+/// How far a branch that ends freely reaches beyond the circle at its junction, mm.
+fn reach(nodes: &[Node], halves: &[Vec<Half>], branch: &Branch, half: Half, radius: f64) -> Option<f64> {
+    let far = branch.ends?[1 - half % 2] as usize;
+    if halves[far].len() != 1 {
+        return None;
+    }
+    let last = if half.is_multiple_of(2) { branch.line.last() } else { branch.line.first() };
+    Some(length(&branch.line) + tip(nodes[far], *last?) - radius)
+}
+
+/// How far the outline is from the last point of a line that ends at `node`, mm.
+fn tip(node: Node, last: Sample) -> f64 {
+    match node {
+        Node::Junction(sample) => sample.radius,
+        Node::End { corner } => last.at.distance(corner),
+    }
+}
+
+/// Makes one node of junctions that all but coincide.
+fn contracted(nodes: &[Node], branches: Vec<Branch>) -> Vec<Branch> {
+    let degrees: Vec<usize> = halves_of_nodes(nodes.len(), &branches).iter().map(Vec::len).collect();
+    let radius = |n: u32| match nodes[n as usize] {
+        Node::Junction(sample) if degrees[n as usize] > 2 => sample.radius,
+        _ => 0.0,
+    };
+    let is_link = |b: &Branch| {
+        let limit = b.ends.map_or(0.0, |[m, n]| radius(m).min(radius(n)) * SAME_JUNCTION);
+        limit > 0.0 && length(&b.line) <= limit
+    };
+    let (links, mut rest): (Vec<Branch>, Vec<Branch>) = branches.into_iter().partition(is_link);
+    let mut root: Vec<u32> = (0..nodes.len() as u32).collect();
+    for [m, n] in links.iter().filter_map(|b| b.ends) {
+        let (a, b) = (find(&root, m), find(&root, n));
+        root[a.max(b) as usize] = a.min(b);
+    }
+    for branch in &mut rest {
+        branch.ends = branch.ends.map(|ends| ends.map(|n| find(&root, n)));
+    }
+    rest
+}
+
+fn find(root: &[u32], mut node: u32) -> u32 {
+    while root[node as usize] != node {
+        node = root[node as usize];
+    }
+    node
+}
+
+/// The two halves at a node that make the straightest and longest line.
+fn straightest(branches: &[Branch], halves: &[Half]) -> Option<[Half; 2]> {
+    let lengths: Vec<f64> = halves.iter().map(|&h| length(&branches[h / 2].line)).collect();
+    let longest = lengths.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let directions: Vec<DVec2> =
+        halves.iter().map(|&h| direction(&branches[h / 2].line, h % 2 == 1)).collect();
+    let mut best: Option<(f64, [Half; 2])> = None;
+    for i in 0..halves.len() {
+        for j in i + 1..halves.len() {
+            let length = lengths[i].min(lengths[j]) / longest;
+            let score = LENGTH_WEIGHT * length - directions[i].dot(directions[j]);
+            if best.is_none_or(|(b, _)| score > b) {
+                best = Some((score, [halves[i], halves[j]]));
+            }
+        }
+    }
+    best.map(|(_, pair)| pair)
+}
+
+/// Unit vector into a line from its start, or from its end if `reversed`; zero without length.
+pub(super) fn direction(line: &[Sample], reversed: bool) -> DVec2 {
+    let from = |i: usize| if reversed { line[line.len() - 1 - i] } else { line[i] };
+    let Some(start) = (!line.is_empty()).then(|| from(0)) else { return DVec2::ZERO };
+    let far = (1..line.len()).map(from).find(|s| s.at.distance(start.at) >= DIRECTION_AT * start.radius);
+    let far = far.unwrap_or_else(|| from(line.len() - 1));
+    (far.at - start.at).normalize_or_zero()
+}
+
+/// Length of a line, mm.
+pub(super) fn length(line: &[Sample]) -> f64 {
+    line.windows(2).map(|w| w[0].at.distance(w[1].at)).sum()
+}
