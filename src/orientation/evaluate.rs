@@ -8,12 +8,19 @@ use super::layers::LayerStack;
 use super::scars::Scars;
 use super::{OrientationError, OrientationOptions, Watch};
 use crate::mesh::Mesh;
-use crate::region::overhang::Island;
 use crate::slice::{Axis, slice_mesh};
 use crate::support::volumes::{Descent, SupportVolumes, VolumeRules};
 
 /// Sections are cut for this many runs of layers at a time, so that memory stays bounded.
 const RUNS_AT_A_TIME: usize = 64;
+
+/// Contours may be simplified by this share of the layer height. Coarser is not faster by much, and
+/// wrong: with a twentieth a ball of 25 mm needed 10 % more support, for steps near 45 degrees
+/// were taken for too long.
+const RESOLUTION_SHARE: f64 = 0.01;
+
+/// Below this, mm, simplifying gains nothing: it is the order of the polygon grid.
+const FINEST_RESOLUTION: f64 = 5e-4;
 
 /// Plastic that an ordinary nozzle lays down, mm3/s: a bead of 0.45 x 0.2 mm at 60 mm/s.
 const SURROGATE_FLOW: f64 = 5.4;
@@ -84,7 +91,7 @@ pub fn evaluate(
             let layers = stack.runs[run].len() as u32;
             open_layers += if section.gaps.is_empty() { 0 } else { layers };
             descent.enter(section.area, layers);
-            scars.look(run, &descent.islands().collect::<Vec<&Island>>());
+            scars.look(run, descent.region());
             let done = stack.slice_z.len() - stack.runs[run].start;
             if !watch(done as u32, stack.slice_z.len() as u32) {
                 return Err(OrientationError::Cancelled);
@@ -104,10 +111,11 @@ fn rules(options: &OrientationOptions) -> VolumeRules {
     }
 }
 
-/// By how much contours may be simplified, mm.
+/// By how much contours may be simplified, mm: so little that a wall half a degree from the
+/// self-support angle is still told from one at it.
 fn resolution(options: &OrientationOptions) -> f64 {
-    let _ = options;
-    0.0
+    let share = options.layer_height * RESOLUTION_SHARE;
+    if share < FINEST_RESOLUTION { 0.0 } else { share }
 }
 
 /// What the figures need to know of the part this way up.

@@ -3,8 +3,19 @@
 //! Source: [Karim] equations (9) to (12). A_k is the part's section in layer k, S_k the support
 //! region, both seen from above; layers are counted from the bed.
 
-use crate::polygon::PolygonSet;
+use crate::polygon::{Contour, DVec2, PolygonSet};
 use crate::region::overhang::{self, Island};
+
+/// Slits and slivers of a support region that are thinner than this, mm, are rounding artefacts of
+/// borders that ran along each other: three grid steps.
+const THIN_MM: f64 = 3e-4;
+
+/// Dents in the border of a support region that are shallower than this share of the layer height
+/// are filled: they cost time in every layer below and hold next to nothing.
+const DENT_SHARE: f64 = 0.025;
+
+/// At most this many neighbouring points go with one dent.
+const DENT_POINTS: usize = 32;
 
 /// What the descent needs to know about the print.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -94,7 +105,7 @@ impl Descent {
     /// `esf` lies below the part and S_(k+1) does not, so `carried` is all that S_k and S_(k+1)
     /// share: a piece of it ties the component above that it came from to the one it lies in now.
     fn replace_region(&mut self, carried: PolygonSet, esf: &PolygonSet) {
-        let region = carried.union(esf);
+        let region = self.without_dents(carried.union(esf));
         let islands = Island::all_of(&region);
         let parts: Vec<Part> =
             islands.into_iter().map(|island| Part { node: self.structures.add(&island), island }).collect();
@@ -114,14 +125,17 @@ impl Descent {
         (self.region, self.parts) = (region, parts);
     }
 
+    /// The region without slits and slivers, shallow dents filled.
+    fn without_dents(&self, region: PolygonSet) -> PolygonSet {
+        let depth = DENT_SHARE * self.rules.layer_height;
+        let thin = |c: &Contour| 2.0 * c.signed_area().abs() < THIN_MM * c.length();
+        let kept = region.into_contours().into_iter().filter(|c| !thin(c));
+        PolygonSet::canonical(kept.map(|c| fill_dents(&c, depth)).collect())
+    }
+
     /// S_k of the layer entered last.
     pub fn region(&self) -> &PolygonSet {
         &self.region
-    }
-
-    /// Components of S_k of the layer entered last.
-    pub fn islands(&self) -> impl Iterator<Item = &Island> {
-        self.parts.iter().map(|part| &part.island)
     }
 
     /// The figures, once the layer on the bed has been entered.
@@ -137,6 +151,27 @@ impl Descent {
             bed_contact_mm2: self.area.area(),
         }
     }
+}
+
+/// Drops runs of points that lie to the left of the line past them, where the area is, by at most
+/// `depth` mm. The area only grows, so no gap opens towards what the next layer adds beside it.
+fn fill_dents(contour: &Contour, depth: f64) -> Contour {
+    let points = &contour.points;
+    let mut kept: Vec<DVec2> = Vec::with_capacity(points.len());
+    let mut at = 0;
+    while at < points.len() {
+        kept.push(points[at]);
+        let reach = (at + 2..points.len().min(at + DENT_POINTS))
+            .take_while(|&end| is_dent(points[at], &points[at + 1..end], points[end], depth));
+        at = reach.last().unwrap_or(at + 1);
+    }
+    if kept.len() < 3 { contour.clone() } else { Contour::new(kept) }
+}
+
+fn is_dent(from: DVec2, between: &[DVec2], to: DVec2, depth: f64) -> bool {
+    let along = to - from;
+    let length = along.length();
+    between.iter().all(|&p| (0.0..=depth * length).contains(&along.perp_dot(p - from)))
 }
 
 /// Union-find over the components of all layers; a set is one support structure.
