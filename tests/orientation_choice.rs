@@ -1,5 +1,6 @@
 //! What is held, what is not, and which way up is chosen.
 
+mod common;
 mod orientation_shapes;
 
 use foothold::orientation::{OrientationOptions, OrientationReport, candidates, choose, evaluate, orient};
@@ -40,6 +41,15 @@ fn a_frustum_of_46_degrees_does_not() {
         let expected = b * b * 20.0 - 20.0 / 3.0 * (a * a + a * b + b * b);
         assert!((figures.support_mm3 / expected - 1.0).abs() < 0.02, "{} {expected}", figures.support_mm3);
         assert_eq!(figures.structures, 2);
+    }
+}
+
+#[test]
+fn a_cone_of_45_degrees_holds_itself_however_finely_it_is_meshed() {
+    // Its sections are simplified before they are compared, each in its own way.
+    for sides in [32, 128, 512] {
+        let figures = report(&common::frustum(10.0, 30.0, 20.0, sides), &at(0.2)).directions[0];
+        assert_eq!(figures.support_mm3, 0.0, "{sides} sides");
     }
 }
 

@@ -4,6 +4,7 @@ use glam::{DMat3, DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::mesh::Mesh;
+use crate::mesh::transform::rotation_to_up;
 
 /// A direction of the part as it lies that may be turned up.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -33,19 +34,7 @@ pub fn six() -> [Direction; 6] {
 /// Its third row is `up` itself, so heights are not rounded; for the six axes every entry is
 /// 0, 1 or -1 and nothing is.
 pub fn rotation_for(up: DVec3) -> DMat3 {
-    let half_turn = DMat3::from_diagonal(DVec3::new(1.0, -1.0, -1.0));
-    if up.z < 0.0 { shortest_rotation(half_turn * up) * half_turn } else { shortest_rotation(up) }
-}
-
-/// Rodrigues' formula for the turn from `up`, up.z >= 0, to +z.
-fn shortest_rotation(up: DVec3) -> DMat3 {
-    let k = 1.0 / (1.0 + up.z);
-    let rows = [
-        DVec3::new(1.0 - up.x * up.x * k, -up.x * up.y * k, -up.x),
-        DVec3::new(-up.x * up.y * k, 1.0 - up.y * up.y * k, -up.y),
-        up,
-    ];
-    DMat3::from_cols(rows[0], rows[1], rows[2]).transpose()
+    DMat3::from_mat4(rotation_to_up(up))
 }
 
 /// The mesh turned so that `up` points to +z; it stays where it is otherwise.

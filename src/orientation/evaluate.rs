@@ -107,12 +107,13 @@ fn rules(options: &OrientationOptions) -> VolumeRules {
         layer_height: options.layer_height,
         self_support_angle_deg: options.self_support_angle_deg,
         base_layers: options.base_layers,
+        section_tolerance: resolution(options),
         speck_width: options.speck_width,
     }
 }
 
-/// By how much contours may be simplified, mm: so little that a wall half a degree from the
-/// self-support angle is still told from one at it.
+/// By how much contours may be simplified, mm: so little that a wall at 46 degrees is still
+/// told from one at 45.
 fn resolution(options: &OrientationOptions) -> f64 {
     let share = options.layer_height * RESOLUTION_SHARE;
     if share < FINEST_RESOLUTION { 0.0 } else { share }

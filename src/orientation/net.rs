@@ -10,14 +10,14 @@
 pub const DIRECTIONS: usize = 6;
 
 /// Units of the hidden layer.
-pub const HIDDEN: usize = 16;
+pub const HIDDEN: usize = 24;
 
 /// Numbers of a network: input weights, hidden biases, output weights, output bias.
 pub const WEIGHTS: usize = HIDDEN * DIRECTIONS + HIDDEN + HIDDEN + 1;
 
 const STORED: &[u8; WEIGHTS * 4] = include_bytes!("weights.bin");
 
-/// One hidden layer of rectified units and one output: 6 - 16 - 1.
+/// One hidden layer of rectified units and one output: 6 - 24 - 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Net {
     /// In the order of [`WEIGHTS`]; the weights of a hidden unit lie together.

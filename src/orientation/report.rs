@@ -130,3 +130,56 @@ fn ids(minima: &[u8; DIRECTIONS]) -> String {
     let ids: Vec<String> = ids.collect();
     if ids.is_empty() { "none".to_owned() } else { ids.join(" and ") }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Figures of six directions with these volumes and structures.
+    fn figures(volumes: [f64; 6], structures: [u32; 6]) -> Vec<DirectionFigures> {
+        let one = |i: usize| DirectionFigures {
+            id: i as u32 + 1,
+            up: super::super::six()[i].up,
+            support_mm3: volumes[i],
+            base_mm3: 0.0,
+            total_mm3: volumes[i],
+            structures: structures[i],
+            specks: 0,
+            support_filament_mm: 0.0,
+            bed_contact_mm2: 1.0,
+            height_mm: 10.0,
+            layers: 50,
+            time_surrogate_s: 0.0,
+            scarred_mm2: 0.0,
+            open_layers: 0,
+            pareto: false,
+        };
+        (0..6).map(one).collect()
+    }
+
+    #[test]
+    fn part_model_2_is_printed_as_it_lies() {
+        let volumes = [44018.47, 44018.47, 58191.38, 137691.38, 152373.41, 106998.41];
+        let report = choose(figures(volumes, [3, 3, 3, 4, 2, 2]), &OrientationOptions::default()).unwrap();
+        assert_eq!(report.o1, [1, 1, 0, 0, 0, 0]);
+        assert_eq!(report.exact, report.o1);
+        assert_eq!(report.o2, [1, 0, 0, 0, 0, 0]);
+        assert_eq!(report.chosen, 1);
+        assert!(report.network_agrees() && report.remarks.is_empty());
+    }
+
+    #[test]
+    fn where_the_network_differs_the_exact_rule_wins_and_the_report_says_so() {
+        let volumes = [90_000.0, 20_001.0, 20_000.0, 60_000.0, 100_000.0, 80_000.0];
+        let report = choose(figures(volumes, [2; 6]), &OrientationOptions::default()).unwrap();
+        assert_eq!(report.o1, [0, 1, 1, 0, 0, 0]);
+        assert_eq!(report.exact, [0, 0, 1, 0, 0, 0]);
+        assert_eq!(report.chosen, 3);
+        let remark = &report.remarks[0];
+        assert_eq!(remark.code, "orientation_network_differs");
+        assert_eq!(
+            remark.message,
+            "the network takes 2 and 3 for the minimum, the exact comparison 3; the exact one is used"
+        );
+    }
+}

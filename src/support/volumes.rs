@@ -26,6 +26,9 @@ pub struct VolumeRules {
     pub self_support_angle_deg: f64,
     /// Layers m of the base below part and supports.
     pub base_layers: u32,
+    /// By how much the sections were simplified, mm: two of them may seem farther apart by twice
+    /// this, and a wall at the very angle must not need support for it.
+    pub section_tolerance: f64,
     /// Structures whose largest layer is under the square of this (a line's width, mm) are specks.
     pub speck_width: f64,
 }
@@ -74,7 +77,7 @@ impl Descent {
         let step = overhang::permissible_step(rules.layer_height, rules.self_support_angle_deg);
         Descent {
             rules,
-            step,
+            step: step + 2.0 * rules.section_tolerance,
             area: PolygonSet::EMPTY,
             region: PolygonSet::EMPTY,
             parts: Vec::new(),
@@ -218,8 +221,13 @@ mod tests {
     use super::*;
     use crate::polygon::dvec2;
 
-    const RULES: VolumeRules =
-        VolumeRules { layer_height: 0.5, self_support_angle_deg: 45.0, base_layers: 5, speck_width: 0.45 };
+    const RULES: VolumeRules = VolumeRules {
+        layer_height: 0.5,
+        self_support_angle_deg: 45.0,
+        base_layers: 5,
+        section_tolerance: 0.0,
+        speck_width: 0.45,
+    };
 
     fn rectangle(x0: f64, y0: f64, x1: f64, y1: f64) -> PolygonSet {
         PolygonSet::rectangle(dvec2(x0, y0), dvec2(x1, y1))
