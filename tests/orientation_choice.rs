@@ -48,7 +48,8 @@ fn a_frustum_of_46_degrees_does_not() {
 fn a_cone_of_45_degrees_holds_itself_however_finely_it_is_meshed() {
     // Its sections are simplified before they are compared, each in its own way.
     for sides in [32, 128, 512] {
-        let figures = report(&common::frustum(10.0, 30.0, 20.0, sides), &at(0.2)).directions[0];
+        let circle = common::circle(glam::DVec2::ZERO, 10.0, sides);
+        let figures = report(&common::frustum(&circle, 20.0, 3.0), &at(0.2)).directions[0];
         assert_eq!(figures.support_mm3, 0.0, "{sides} sides");
     }
 }

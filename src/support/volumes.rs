@@ -151,7 +151,8 @@ impl Descent {
             base_mm3: f64::from(rules.base_layers) * rules.layer_height * base_mm2,
             structures: large + 1,
             specks,
-            bed_contact_mm2: self.area.area(),
+            // An empty area sums to -0.0.
+            bed_contact_mm2: self.area.area() + 0.0,
         }
     }
 }

@@ -1,5 +1,5 @@
 //! Solids for the orientation tests, built triangle by triangle.
-#![allow(dead_code, reason = "each test file uses some of them")]
+#![allow(dead_code, unreachable_pub, reason = "each test file uses some of them")]
 
 use foothold::mesh::Mesh;
 use foothold::polygon::trig::sin_cos;
