@@ -12,10 +12,10 @@ use foothold::orientation::exact;
 use foothold::orientation::net::{DIRECTIONS, HIDDEN, Net, ScaledVolumes, WEIGHTS};
 
 /// Seed of the stored weights.
-pub const SEED: u64 = 0x0F00_7401;
+pub(crate) const SEED: u64 = 0x0F00_7401;
 
 /// Adam steps of the full training.
-pub const STEPS: usize = 40_000;
+pub(crate) const STEPS: usize = 40_000;
 
 /// Rows looked at in one step.
 const BATCH: usize = 256;
@@ -48,19 +48,19 @@ fn main() {
 
 /// How often the network gives the exact answer, all six outputs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Metrics {
+pub(crate) struct Metrics {
     /// Cases whose two smallest volumes differ by more than 1 % of the largest.
-    pub clear_cases: usize,
+    pub(crate) clear_cases: usize,
     /// Share of them answered exactly.
-    pub clear: f64,
+    pub(crate) clear: f64,
     /// Share of all drawn cases answered exactly, the unclear ones included.
-    pub all: f64,
+    pub(crate) all: f64,
     /// Share of cases with two to six equal smallest volumes answered exactly.
-    pub ties: f64,
+    pub(crate) ties: f64,
 }
 
 /// Scores a network on fresh cases: `count` drawn ones and `count` with exact ties.
-pub fn measure(net: &Net, seed: u64, count: usize) -> Metrics {
+pub(crate) fn measure(net: &Net, seed: u64, count: usize) -> Metrics {
     let mut random = Random(seed);
     let (mut clear_cases, mut clear, mut all, mut ties) = (0, 0, 0, 0);
     for i in 0..count {
@@ -96,7 +96,7 @@ fn gap(volumes: &[f64; DIRECTIONS]) -> f64 {
 }
 
 /// Six volumes, mm3, largest possible 1e5: uniform, or log-uniform over three decades.
-pub fn draw(random: &mut Random, logarithmic: bool) -> [f64; DIRECTIONS] {
+pub(crate) fn draw(random: &mut Random, logarithmic: bool) -> [f64; DIRECTIONS] {
     std::array::from_fn(|_| {
         let share = random.share();
         1e5 * if logarithmic { libm::exp(-3.0 * std::f64::consts::LN_10 * share) } else { share }
@@ -104,7 +104,7 @@ pub fn draw(random: &mut Random, logarithmic: bool) -> [f64; DIRECTIONS] {
 }
 
 /// The same case with the smallest volume copied to one to five other places.
-pub fn tie(random: &mut Random, mut volumes: [f64; DIRECTIONS]) -> [f64; DIRECTIONS] {
+pub(crate) fn tie(random: &mut Random, mut volumes: [f64; DIRECTIONS]) -> [f64; DIRECTIONS] {
     let smallest = (1..DIRECTIONS).fold(0, |s, i| if volumes[i] < volumes[s] { i } else { s });
     for _ in 0..1 + random.below(DIRECTIONS - 1) {
         let other = (smallest + 1 + random.below(DIRECTIONS - 1)) % DIRECTIONS;
@@ -151,7 +151,7 @@ fn draw_even(random: &mut Random) -> [f64; DIRECTIONS] {
 }
 
 /// Trains from random weights; the same seed and number of steps give the same network.
-pub fn train(seed: u64, steps: usize) -> Net {
+pub(crate) fn train(seed: u64, steps: usize) -> Net {
     let mut random = Random(seed);
     let mut weights = first_weights(&mut random);
     let mut adam = Adam { mean: [0.0; WEIGHTS], square: [0.0; WEIGHTS] };
@@ -221,7 +221,7 @@ impl Adam {
 }
 
 /// SplitMix64 [Steele, Lea, Flood 2014].
-pub struct Random(pub u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
     fn next(&mut self) -> u64 {
@@ -233,12 +233,12 @@ impl Random {
     }
 
     /// A number in [0, 1).
-    pub fn share(&mut self) -> f64 {
+    pub(crate) fn share(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 
     /// A number in 0..n, n > 0.
-    pub fn below(&mut self, n: usize) -> usize {
+    pub(crate) fn below(&mut self, n: usize) -> usize {
         (self.share() * n as f64) as usize
     }
 }

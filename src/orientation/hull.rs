@@ -282,7 +282,7 @@ mod tests {
         let spot = |i: u32| {
             let z = 1.0 - f64::from(i) / 200.0;
             let (sin, cos) = crate::polygon::trig::sin_cos(f64::from(i) * 2.4);
-            let r = (1.0 - z * z).max(0.0).sqrt() * if i % 7 == 0 { 0.8 } else { 1.0 };
+            let r = (1.0 - z * z).max(0.0).sqrt() * if i.is_multiple_of(7) { 0.8 } else { 1.0 };
             vec3((r * cos) as f32, (r * sin) as f32, z as f32) * 20.0
         };
         let mesh = cloud((0..400).map(spot).collect());
