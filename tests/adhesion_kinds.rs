@@ -137,7 +137,9 @@ fn ears_stand_at_sharp_corners_only() {
     picture::draw("ears", &square, &laid);
     // Each ear holds 8 mm of two sides, and up to the reach of 0.25 more.
     assert!((64.0..=66.0).contains(&laid.figures.attachment_mm), "{}", laid.figures.attachment_mm);
-    assert_eq!(laid.layers[0].len(), 80);
+    // 20 loops at 4 corners; the corners of the six loops beyond 8 / sqrt(2) lie outside the round area,
+    // so these are in two pieces.
+    assert_eq!(laid.layers[0].len(), 4 * (14 + 2 * 6));
     let round = lay(&circle(dvec2(110.0, 110.0), 20.0, 90), &settings);
     assert!(round.layers[0].is_empty());
     assert_eq!(round.warnings[0].code, WarningCode::NoEars);
@@ -237,6 +239,16 @@ fn contradictions_name_the_setting() {
 }
 
 #[test]
+fn a_line_without_width_is_an_error_too() {
+    let part = rectangle(90.0, 90.0, 40.0, 30.0);
+    for line_width in [0.0, -0.4, f64::NAN] {
+        let first = FirstLayer { line_width, ..first_layer(&part, NONE) };
+        let error = lay_foundation(&first, &options(AdhesionKind::Teeth)).expect_err("no line").to_string();
+        assert!(error.starts_with("first_layer.line_width: "), "{error}");
+    }
+}
+
+#[test]
 fn contradictions_in_another_kind_do_not_matter() {
     let mut settings: AdhesionOptions = options(AdhesionKind::Skirt);
     settings.teeth.base = 9.0;
@@ -262,7 +274,7 @@ fn teeth_larger_than_the_part_are_told() {
 }
 
 fn laid_speck() -> Foundation {
-    lay(&rectangle(110.0, 110.0, 0.04, 0.04), &options(AdhesionKind::Teeth))
+    lay(&rectangle(110.0, 110.0, 0.03, 0.03), &options(AdhesionKind::Teeth))
 }
 
 #[test]

@@ -56,6 +56,9 @@ fn rings_letters_and_frames() {
 fn stars_combs_spirals_and_waves() {
     checked("star5", &star(dvec2(110.0, 110.0), 5, 30.0, 12.0));
     checked("star24", &star(dvec2(110.0, 110.0), 24, 30.0, 24.0));
+    // No side of the rail has room for a base: teeth stand around its corners.
+    let short = checked("short-spikes", &star(dvec2(110.0, 110.0), 23, 28.0, 24.0));
+    assert!(placed(&short) >= 15, "{}", placed(&short));
     checked("comb", &comb(60.0, 90.0, 8, 2.0, 6.0, 20.0));
     checked("narrow-comb", &comb(60.0, 90.0, 12, 2.0, 3.0, 20.0));
     checked("spiral", &spiral(dvec2(110.0, 110.0), 3.0, 5.0, 9.0, 2.5));

@@ -10,8 +10,12 @@ pub(super) fn length_within(contours: &[Contour], lines: &Segments, reach: f64) 
     let mut covered = Vec::new();
     let mut of_edge = |a: DVec2, b: DVec2| {
         covered.clear();
-        lines.for_near(Bounds { min: a.min(b), max: a.max(b) }.grown(reach), |line| {
-            covered.extend(stretch_within(a, b, line, reach));
+        let near = Bounds { min: a.min(b), max: a.max(b) }.grown(reach);
+        lines.for_near(near, |line| {
+            // Cells are wider than the reach: most lines in them are too far away.
+            if near.is_near(Bounds { min: line.a.min(line.b), max: line.a.max(line.b) }, 0.0) {
+                covered.extend(stretch_within(a, b, line, reach));
+            }
         });
         a.distance(b) * united_length(&mut covered)
     };

@@ -34,7 +34,7 @@ pub(super) fn to_box(line: Line, bounds: Bounds) -> Vec<Line> {
             _ => pieces.push(vec![a, b]),
         }
     }
-    joined_at_start(pieces, line.closed)
+    joined(pieces, line.closed)
 }
 
 /// The pieces of a line inside the area, sorted by their first points. The line itself, unchanged,
@@ -52,25 +52,35 @@ pub(super) fn to_area(line: Line, area: &PolygonSet) -> Vec<Line> {
         return vec![line];
     }
     pieces.sort_by(|p, q| by_x_then_y(p[0], q[0]));
-    joined_at_start(pieces, line.closed)
+    joined(pieces, line.closed)
 }
 
 /// A length that rounding to the grid may add or take at one point, mm.
 const GRID_SLACK_MM: f64 = 2e-4;
 
-/// Open lines from pieces of a loop; the pieces on both sides of the loop's start become one.
-fn joined_at_start(mut pieces: Vec<Vec<DVec2>>, closed: bool) -> Vec<Line> {
-    let meet = (0..pieces.len()).find_map(|i| {
-        let end = pieces[i].last().copied();
-        let next = (0..pieces.len()).find(|&j| j != i && pieces[j].first().copied() == end)?;
-        Some((i, next))
-    });
-    if let (true, Some((before, after))) = (closed, meet) {
-        let tail = std::mem::take(&mut pieces[after]);
-        pieces[before].extend(tail.into_iter().skip(1));
-        pieces.remove(after);
+/// Open lines from pieces of a line; of a loop, pieces that end in the same point become one.
+fn joined(mut pieces: Vec<Vec<DVec2>>, closed: bool) -> Vec<Line> {
+    while let Some((i, j)) = meeting(&pieces).filter(|_| closed) {
+        let (mut first, mut second) = (pieces[i].clone(), pieces.remove(j));
+        if first.first() == second.last() {
+            // The two sides of the loop's start: this order keeps their direction.
+            std::mem::swap(&mut first, &mut second);
+        } else if first.first() == second.first() {
+            first.reverse();
+        } else if first.last() == second.last() {
+            second.reverse();
+        }
+        first.extend(second.into_iter().skip(1));
+        pieces[i] = first;
     }
     pieces.into_iter().map(|points| Line { points, closed: false }).collect()
+}
+
+/// Two pieces with a common end, the smaller index first.
+fn meeting(pieces: &[Vec<DVec2>]) -> Option<(usize, usize)> {
+    let ends = |i: usize| [pieces[i].first(), pieces[i].last()];
+    let meet = |i: usize, j: usize| ends(i).iter().any(|end| ends(j).contains(end));
+    (0..pieces.len()).find_map(|i| (i + 1..pieces.len()).find(|&j| meet(i, j)).map(|j| (i, j)))
 }
 
 /// The part of a segment inside the box (Liang and Barsky 1984).

@@ -14,6 +14,7 @@ mod figures;
 mod ground;
 pub mod options;
 mod raft;
+pub mod recommend;
 mod segments;
 mod skirt;
 pub mod teeth;
@@ -22,11 +23,12 @@ pub use error::{AdhesionError, AdhesionWarning, WarningCode};
 pub use options::{
     AdhesionKind, AdhesionOptions, BrimOptions, BrimSide, Placement, RaftOptions, SkirtOptions, TeethOptions,
 };
+pub use recommend::{Reason, Recommendation, Warping, recommend};
 pub use teeth::{TeethDrawing, Tooth};
 
 use ground::Ground;
 
-use crate::options::Checked;
+use crate::options::{Checked, check_range};
 use crate::polygon::PolygonSet;
 use crate::polygon::measure::Bounds;
 use crate::region::Path;
@@ -113,7 +115,7 @@ pub struct TeethFigures {
 /// smaller than a tooth) is told in [`Foundation::warnings`]; settings that contradict each other
 /// are an error.
 pub fn lay_foundation(first: &FirstLayer, options: &AdhesionOptions) -> Result<Foundation, AdhesionError> {
-    options.check("adhesion")?;
+    check(first, options)?;
     lay(first, &Ground::of(first), options.kind, options)
 }
 
@@ -128,13 +130,23 @@ pub struct Alternative {
 
 /// Skirt, brim, raft and teeth for the same first layer, in this order, whatever `options.kind` says.
 pub fn compare(first: &FirstLayer, options: &AdhesionOptions) -> Result<[Alternative; 4], AdhesionError> {
-    options.check("adhesion")?;
+    check(first, options)?;
     let ground = Ground::of(first);
     let of = |kind| -> Result<Alternative, AdhesionError> {
         Ok(Alternative { kind, foundation: lay(first, &ground, kind, options)? })
     };
     let [skirt, brim, raft, teeth] = AdhesionKind::ALL;
     Ok([of(skirt)?, of(brim)?, of(raft)?, of(teeth)?])
+}
+
+/// The ranges of all settings used here. Line width and heights have theirs elsewhere; here they must be
+/// such that no path is broken.
+fn check(first: &FirstLayer, options: &AdhesionOptions) -> Result<(), AdhesionError> {
+    options.check("adhesion")?;
+    check_range(&first.line_width, "first_layer", "line_width", "mm", 0.01..=10.0)?;
+    check_range(&first.height, "layers", "first_height", "mm", 0.001..=10.0)?;
+    check_range(&first.next_height, "layers", "height", "mm", 0.001..=10.0)?;
+    Ok(())
 }
 
 fn lay(

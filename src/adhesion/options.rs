@@ -144,7 +144,7 @@ crate::options! {
         height: f64 = 2.4, "Tooth height", "mm", 0.1..=40.0;
         /// Lmin: shorter edges of the rail may be merged (placement per_edge).
         simplify_length: f64 = 0.5, "Simplify: length", "mm", 0.0..=5.0;
-        /// Hmin: the rail is simplified where it bulges less.
+        /// Hmin: and only where they bulge less (placement per_edge).
         simplify_height: f64 = 0.05, "Simplify: height", "mm", 0.0..=1.0;
         /// How teeth are distributed along the rail.
         placement: Placement = Placement::AlongContour, "Placement";

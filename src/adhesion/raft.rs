@@ -1,7 +1,7 @@
 //! Layers below the part, and the air gap that lets it come off.
 
 use super::error::{AdhesionWarning, WarningCode};
-use super::ground::Ground;
+use super::ground::{Ground, simplified_by};
 use super::options::RaftOptions;
 use super::{FirstLayer, Foundation, RaftLayer};
 use crate::polygon::{DVec2, Join, PolygonSet, dvec2};
@@ -11,9 +11,14 @@ use crate::region::{Path, Role};
 /// border that leans up to 70 degrees from the lines' normal.
 const JOIN_SPACINGS: f64 = 3.0;
 
+/// A raft's border need not follow the part closer than this, mm; each vertex of a wavy part would be a
+/// corner of the border.
+const BORDER_TOLERANCE_MM: f64 = 0.05;
+
 /// A sparse base layer on the bed and dense interface layers on it, lines crossing from layer to layer.
 pub(super) fn raft(first: &FirstLayer, ground: &Ground, options: &RaftOptions) -> Foundation {
-    let whole = ground.area.offset(options.margin, Join::Square);
+    let whole = simplified_by(&ground.area, BORDER_TOLERANCE_MM).offset(options.margin, Join::Square);
+    let whole = simplified_by(&whole, BORDER_TOLERANCE_MM);
     let bed = PolygonSet::rectangle(first.bed.min, first.bed.max);
     let fits = whole.bounds().is_none_or(|b| first.bed.contains(b));
     let footprint = if fits { whole } else { whole.intersection(&bed) };

@@ -206,20 +206,22 @@ fn lay_paths(
 
     let mut parts = LayerParts { walls: walls.loops, ..LayerParts::default() };
     parts.foundation = plan.foundation.get(spec.index as usize).cloned().unwrap_or_default();
-    let mut thin = vec![(Role::OuterWall, walls.thin_outer), (Role::GapFill, walls.thin_inner)];
+    let nozzle = settings.printer.nozzle_diameter;
+    let mut gaps = vec![walls.thin_inner];
     for region in regions {
         if region.role == Role::Infill {
             parts.fills.extend(fill_sparse(&region.area, bead, spec.index, &settings.infill));
         } else {
             let (paths, narrow) = fill_solid(&region.area, region.role, bead, spec.index);
             parts.fills.extend(paths);
-            thin.push((Role::GapFill, narrow));
+            gaps.push(narrow);
         }
     }
-    for (role, area) in thin {
-        parts
-            .fills
-            .extend(fill_thin(&area, &ThinFill::for_nozzle(settings.printer.nozzle_diameter, role)).paths);
+    parts.fills.extend(fill_thin(&walls.thin_outer, &ThinFill::for_nozzle(nozzle, Role::OuterWall)).paths);
+    for gap in gaps {
+        let beads = fill_thin(&gap, &ThinFill::for_nozzle(nozzle, Role::GapFill)).paths;
+        // Between other beads, so its round sides overlap theirs.
+        parts.fills.extend(beads.into_iter().map(|path| path.widened(bead.overlap())));
     }
     for (_, path) in &mut parts.walls {
         start_at_seam(&mut path.points, settings.seam.position);

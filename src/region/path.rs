@@ -47,6 +47,15 @@ impl Path {
         Path { role, points, closed: false, width: Width::Uniform(width) }
     }
 
+    /// The same line with a bead that is `by` mm wider everywhere.
+    pub fn widened(mut self, by: f64) -> Path {
+        match &mut self.width {
+            Width::Uniform(width) => *width += by,
+            Width::Varying(widths) => widths.iter_mut().for_each(|w| *w += by),
+        }
+        self
+    }
+
     /// The same bead laid the other way.
     pub fn reversed(mut self) -> Path {
         self.points.reverse();

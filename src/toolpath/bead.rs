@@ -18,9 +18,15 @@ impl Bead {
     }
 
     /// Distance between the centre lines of neighbouring beads at which their material exactly
-    /// fills the layer: area / height. The round sides overlap by h (1 - pi / 4).
+    /// fills the layer: area / height.
     pub fn spacing(self) -> f64 {
         self.area() / self.height
+    }
+
+    /// By how much a bead is wider than the strip between neighbours that it exactly fills, mm: the
+    /// round sides overlap by h (1 - pi / 4).
+    pub fn overlap(self) -> f64 {
+        self.width - self.spacing()
     }
 }
 

@@ -3,6 +3,7 @@
 //!
 //! Beyond [Lv 2022], whose teeth edge by edge point past corners and miss curves (`per_edge`).
 
+use super::site::Base;
 use super::spacing::{PitchRange, spread};
 use super::windows::windows_of;
 use super::{PlacedTooth, Rail, Site, Window};
@@ -15,11 +16,14 @@ use crate::polygon::{DVec2, PolygonSet};
 /// Outline within the rail's distance and this much more counts as reachable, mm.
 pub(super) const REACH_SLACK_MM: f64 = 0.02;
 
-/// Rails are simplified to this at most, mm: half the slack, so that a rail reaches its own outline.
-const RAIL_TOLERANCE_MM: f64 = REACH_SLACK_MM / 2.0;
-
 /// A tooth that does not fit is tried again in steps of this, mm.
 const SHIFT_MM: f64 = 0.25;
+
+/// Share of the teeth that fit which are promised.
+const PROMISED: f64 = 0.9;
+
+/// What another way to measure the reachable length may find more, in teeth.
+const MEASURE_SLACK: f64 = 0.02;
 
 /// Parts reached all round get at least this many teeth, however small, if they fit.
 const FEWEST: u32 = 3;
@@ -51,16 +55,23 @@ impl Placement {
 
 /// Places teeth along all rails.
 pub(super) fn place(site: &Site, rails: &PolygonSet) -> Placement {
-    let tolerance = site.options.simplify_height.min(RAIL_TOLERANCE_MM);
-    let rails: Vec<Rail> =
-        rails.simplified(tolerance).into_contours().into_iter().map(|c| Rail::new(c.points)).collect();
-    let windows: Vec<Window> = rails.iter().enumerate().flat_map(|(i, r)| windows_of(site, i, r)).collect();
-    let reach = Reach::measure(site, &rails);
-    let mut work = Work { site, index: index_of(&rails), rails: &rails, placed: Placed::new(site) };
+    // Not simplified: the outline was, and near rails would come to cross.
+    let rails: Vec<Rail> = rails.contours().iter().map(|c| Rail::new(c.points.clone())).collect();
+    let index = index_of(&rails);
+    let reach = Reach::measure(site, &rails, &index);
+    let mut work = Work { site, index, rails: &rails, placed: Placed::new(site) };
     let mut summary = Summary::default();
+    let smooth = work.windows(Base::Smooth);
+    let around_corners = std::cell::OnceCell::new();
     for owner in (0..site.is_hole.len() as u32).filter(|&o| site.options.holes || !site.is_hole[o as usize]) {
-        let own: Vec<Window> = windows.iter().filter(|w| w.owner == owner).copied().collect();
-        let count = work.place_on(own, reach.wanted(site, owner));
+        let own =
+            |all: &[Window]| -> Vec<Window> { all.iter().filter(|w| w.owner == owner).copied().collect() };
+        let wanted = reach.wanted(site, owner);
+        let mut count = work.place_on(own(&smooth), wanted, Base::Smooth);
+        if count < wanted {
+            let windows = own(around_corners.get_or_init(|| work.windows(Base::AroundCorners)));
+            count = work.add_around_corners(windows, wanted, count);
+        }
         summary.add(site, &reach, owner, count);
     }
     let teeth = work.placed.teeth;
@@ -81,10 +92,10 @@ struct Reach {
 }
 
 impl Reach {
-    fn measure(site: &Site, rails: &[Rail]) -> Reach {
+    fn measure(site: &Site, rails: &[Rail], index: &Segments) -> Reach {
         let reach = site.options.offset + REACH_SLACK_MM;
         let contours = site.area.contours();
-        let whole = length_within(contours, &index_of(rails), reach);
+        let whole = length_within(contours, index, reach);
         let bounds = Bounds::of_points(rails.iter().flat_map(|r| &r.points));
         if bounds.is_none_or(|b| site.bed.contains(b)) {
             return Reach { on_bed: whole.clone(), whole };
@@ -99,11 +110,14 @@ impl Reach {
         Reach { whole, on_bed }
     }
 
-    /// Teeth that a contour shall have: one per pitch of reachable length, and [`FEWEST`].
+    /// Teeth that a contour shall have: one per pitch of reachable length, at least the promised share
+    /// of that, and [`FEWEST`].
     fn wanted(&self, site: &Site, owner: u32) -> u32 {
         let reached = self.on_bed[owner as usize];
         let all_round = reached > 0.8 * site.area.contours()[owner as usize].length();
-        ((reached / site.options.pitch).round() as u32).max(if all_round { FEWEST } else { 0 })
+        let fitting = reached / site.options.pitch;
+        let least = (PROMISED * fitting + MEASURE_SLACK).ceil();
+        (fitting.round().max(least) as u32).max(if all_round { FEWEST } else { 0 })
     }
 }
 
@@ -155,10 +169,10 @@ impl Work<'_> {
     ///
     /// Where something is in the way of a planned tooth, its window is given up and the teeth are
     /// spread again over the others, so that what is lost in one place is made up in another.
-    fn place_on(&mut self, mut windows: Vec<Window>, wanted: u32) -> u32 {
+    fn place_on(&mut self, mut windows: Vec<Window>, wanted: u32, base: Base) -> u32 {
         let before = self.placed.teeth.len();
         for _ in 0..TRIES {
-            let failed = self.place_spread(&windows, wanted);
+            let failed = self.place_spread(&windows, wanted, base);
             let count = (self.placed.teeth.len() - before) as u32;
             if count >= wanted || failed.is_empty() {
                 break;
@@ -171,18 +185,40 @@ impl Work<'_> {
             windows = kept;
             self.placed.truncate(before);
         }
-        self.fill(&windows, wanted, (self.placed.teeth.len() - before) as u32)
+        self.fill(&windows, wanted, (self.placed.teeth.len() - before) as u32, base)
+    }
+
+    /// Where smooth stretches have no room for all teeth, more of them around corners: in between when
+    /// some are missing, anew when most are. `count` teeth of the contour stand already.
+    fn add_around_corners(&mut self, windows: Vec<Window>, wanted: u32, count: u32) -> u32 {
+        if count > wanted / 2 {
+            return self.fill(&windows, wanted, count, Base::AroundCorners);
+        }
+        let smooth = self.placed.teeth.split_off(self.placed.teeth.len() - count as usize);
+        self.placed.truncate(self.placed.teeth.len());
+        let found = self.place_on(windows, wanted, Base::AroundCorners);
+        if found >= count {
+            return found;
+        }
+        self.placed.truncate(self.placed.teeth.len() - found as usize);
+        smooth.into_iter().for_each(|tooth| self.placed.add(tooth));
+        count
+    }
+
+    fn windows(&self, base: Base) -> Vec<Window> {
+        let of = |(i, rail)| windows_of(self.site, i, rail, base);
+        self.rails.iter().enumerate().flat_map(of).collect()
     }
 
     /// Spreads teeth over the windows; those windows in which a planned tooth does not fit.
-    fn place_spread(&mut self, windows: &[Window], wanted: u32) -> Vec<usize> {
+    fn place_spread(&mut self, windows: &[Window], wanted: u32, base: Base) -> Vec<usize> {
         let options = self.site.options;
         let low = options.base + 0.35 * (options.pitch - options.base);
         let range = PitchRange { low, high: 3.0 * options.pitch };
         let lengths: Vec<f64> = self.rails.iter().map(Rail::length).collect();
         let mut failed = Vec::new();
         for (index, s) in spread(windows, &lengths, wanted, range) {
-            if !self.place_near(&windows[index], s, options.pitch / 2.0) {
+            if !self.place_near(&windows[index], s, base) {
                 failed.push(index);
             }
         }
@@ -190,30 +226,30 @@ impl Work<'_> {
     }
 
     /// Puts a tooth at `s`, or as near to it as one fits.
-    fn place_near(&mut self, window: &Window, s: f64, farthest: f64) -> bool {
-        let shifts = (farthest / SHIFT_MM) as i32;
+    fn place_near(&mut self, window: &Window, s: f64, base: Base) -> bool {
+        let shifts = (self.site.options.pitch / 2.0 / SHIFT_MM) as i32;
         let tries = (0..=shifts).flat_map(|k| [f64::from(k), -f64::from(k)]).skip(1);
         let inside = |s: &f64| window.ring || (window.from <= *s && *s <= window.to);
-        tries.map(|k| s + k * SHIFT_MM).filter(inside).any(|s| self.try_at(window, s))
+        tries.map(|k| s + k * SHIFT_MM).filter(inside).any(|s| self.try_at(window, s, base))
     }
 
     /// Puts more teeth wherever one fits, until there are enough.
-    fn fill(&mut self, windows: &[Window], wanted: u32, mut count: u32) -> u32 {
+    fn fill(&mut self, windows: &[Window], wanted: u32, mut count: u32, base: Base) -> u32 {
         for window in windows {
             let steps = ((window.to - window.from) / SHIFT_MM) as u32;
             for k in 0..=steps {
                 if count >= wanted {
                     return count;
                 }
-                count += u32::from(self.try_at(window, window.from + f64::from(k) * SHIFT_MM));
+                count += u32::from(self.try_at(window, window.from + f64::from(k) * SHIFT_MM, base));
             }
         }
         count
     }
 
-    fn try_at(&mut self, window: &Window, s: f64) -> bool {
+    fn try_at(&mut self, window: &Window, s: f64, base: Base) -> bool {
         let rail = &self.rails[window.rail];
-        let Some((tooth, owner)) = self.site.tooth_at(rail, s) else { return false };
+        let Some((tooth, owner)) = self.site.tooth_at(rail, s, base) else { return false };
         let s = s.rem_euclid(rail.length());
         let half = self.site.options.base / 2.0;
         let placed = PlacedTooth { tooth, rail: window.rail, from: s - half, to: s + half };

@@ -4,8 +4,7 @@ use super::PlacedTooth;
 use crate::polygon::DVec2;
 
 /// Cosine of the turn from which a vertex of the rail is a corner and not part of a curve (30
-/// degrees). Curves come in steps of at most 12 degrees (rails are simplified to 0.01 mm, and their
-/// convex curves have at least the rail's distance as radius).
+/// degrees). Outlines are simplified to 0.005 mm, so curves of 0.15 mm radius or more turn by less.
 const CORNER_COS: f64 = 0.866;
 
 /// Points closer along the path are one, mm.

@@ -3,7 +3,6 @@
 use super::{PlacedTooth, Rail, Site};
 use crate::adhesion::FirstLayer;
 use crate::adhesion::error::{AdhesionWarning, WarningCode};
-use crate::polygon::measure::Bounds;
 use crate::polygon::{Contour, DVec2, Join, PolygonSet};
 use crate::region::{Path, Role};
 
@@ -21,14 +20,17 @@ pub(super) fn tabs(
     rails: &[(Rail, Vec<PlacedTooth>)],
 ) -> (Vec<Path>, Option<AdhesionWarning>) {
     let outer = f64::from(site.options.rail_lines - 1) * first.line_width;
-    let taken = site.area.offset(site.options.offset + outer, Join::WALL);
+    let mut taken = site.area.offset(site.options.offset + outer, Join::WALL);
     let (mut paths, mut missing) = (Vec::new(), None);
     for (rail, teeth) in rails {
         let mut places = gaps(rail, teeth);
         places.sort_by(|x, y| straightness(rail, *y).total_cmp(&straightness(rail, *x)));
         let mut tabs = places.into_iter().map(|s| Tab::at(rail, s, outer));
         match tabs.find(|tab| tab.has_room(site, &taken, first.line_width)) {
-            Some(tab) => paths.push(tab.path(first.line_width)),
+            Some(tab) => {
+                taken = taken.union(&tab.area(first.line_width));
+                paths.push(tab.path(first.line_width));
+            }
             None => missing = missing.or(rail.points.first().copied()),
         }
     }
@@ -68,14 +70,18 @@ impl Tab {
         self.root + self.along * x + self.outward * y
     }
 
-    /// Whether its beads lie on the bed and touch no rail but where they are rooted.
-    fn has_room(&self, site: &Site, taken: &PolygonSet, line_width: f64) -> bool {
+    /// What its beads cover, but for the half bead that touches the rail.
+    fn area(&self, line_width: f64) -> PolygonSet {
         let (half, low) = (WIDTH_MM / 2.0, line_width / 2.0);
         let far = LENGTH_MM + line_width;
         let corners = [(-half, low), (half, low), (half, far), (-half, far)].map(|(x, y)| self.point(x, y));
-        let on_bed = Bounds::of_points(&corners).is_some_and(|b| site.bed.contains(b));
-        let area = PolygonSet::from_contours(vec![Contour::new(corners.to_vec())]);
-        on_bed && area.intersection(taken).is_empty()
+        PolygonSet::from_contours(vec![Contour::new(corners.to_vec())])
+    }
+
+    /// Whether its beads lie on the bed and touch nothing but the rail where they are rooted.
+    fn has_room(&self, site: &Site, taken: &PolygonSet, line_width: f64) -> bool {
+        let area = self.area(line_width);
+        area.bounds().is_some_and(|b| site.bed.contains(b)) && area.intersection(taken).is_empty()
     }
 
     /// Rows along the rail, to and fro, from the rail outward.

@@ -1,5 +1,6 @@
 //! Stretches of the rail on which a tooth can stand.
 
+use super::site::Base;
 use super::{Rail, Site};
 
 /// Distance of the samples that look for such stretches, mm.
@@ -24,50 +25,44 @@ pub(super) struct Window {
     pub(super) behind_corner: bool,
 }
 
+/// An arc length and the contour that a tooth there would bite.
+type Sample = (f64, Option<u32>);
+
 /// The windows of one rail, in order along it.
-pub(super) fn windows_of(site: &Site, index: usize, rail: &Rail) -> Vec<Window> {
-    let samples: Vec<(f64, Option<u32>)> =
-        sample_positions(rail).into_iter().map(|s| (s, owner_at(site, rail, s))).collect();
-    let n = samples.len();
-    let Some(first) = (0..n).find(|&i| samples[i].1 != samples[(i + n - 1) % n].1) else {
-        let ring = |owner| Window {
-            rail: index,
-            owner,
-            from: 0.0,
-            to: rail.length(),
-            ring: true,
-            behind_corner: false,
-        };
+pub(super) fn windows_of(site: &Site, index: usize, rail: &Rail, base: Base) -> Vec<Window> {
+    let owner_at = |s: f64| site.tooth_at(rail, s, base).map(|(_, owner)| owner);
+    let samples: Vec<Sample> = sample_positions(rail).into_iter().map(|s| (s, owner_at(s))).collect();
+    let window = |owner, from, to| Window { rail: index, owner, from, to, ring: false, behind_corner: false };
+    let Some(line) = unrolled(&samples, rail.length()) else {
+        let ring = |owner| Window { ring: true, ..window(owner, 0.0, rail.length()) };
         return samples.first().and_then(|s| s.1).map(ring).into_iter().collect();
     };
-    // From the first change once round, arc lengths going on beyond the start.
-    let unrolled = |k: usize| {
-        let (s, owner) = samples[(first + k) % n];
-        (if first + k >= n { s + rail.length() } else { s }, owner)
-    };
-    let mut windows: Vec<Window> = Vec::new();
-    let mut k = 0;
-    while k < n {
-        let (from, owner) = unrolled(k);
-        let end = (k..n).take_while(|&j| unrolled(j).1 == owner).last().unwrap_or(k);
-        if let Some(owner) = owner {
-            let before =
-                if k == 0 { samples[(first + n - 1) % n].0 - wrap(first, rail) } else { unrolled(k - 1).0 };
-            let after = if end + 1 < n { unrolled(end + 1).0 } else { samples[first].0 + rail.length() };
-            let limit = |good, bad| last_good(site, rail, owner, good, bad);
-            windows.push(Window {
-                rail: index,
-                owner,
-                from: limit(from, before),
-                to: limit(unrolled(end).0, after),
-                ring: false,
-                behind_corner: false,
-            });
+    let mut windows = Vec::new();
+    // All samples but the neighbours at both ends.
+    let mut start = 1;
+    for run in line[1..line.len() - 1].chunk_by(|x, y| x.1 == y.1) {
+        let (before, after) = (line[start - 1].0, line[start + run.len()].0);
+        start += run.len();
+        if let [(from, Some(owner)), ..] = *run {
+            let limit = |good, bad| last_good(|s| owner_at(s) == Some(owner), good, bad);
+            windows.push(window(owner, limit(from, before), limit(run[run.len() - 1].0, after)));
         }
-        k = end + 1;
     }
     mark_corners(rail, &mut windows);
     windows
+}
+
+/// The samples from the first change of owner once round, arc lengths going on beyond the rail's start, with
+/// one more at either end; `None` without a change.
+fn unrolled(samples: &[Sample], length: f64) -> Option<Vec<Sample>> {
+    let n = samples.len();
+    let first = (0..n).find(|&i| samples[i].1 != samples[(i + n - 1) % n].1)?;
+    let at = |i: usize| {
+        let (s, owner) = samples[i % n];
+        (s + ((i / n) as f64 - 1.0) * length, owner)
+    };
+    // Counted one round ahead, so that the sample before the first is not negative.
+    Some((first + n - 1..=first + 2 * n).map(at).collect())
 }
 
 fn mark_corners(rail: &Rail, windows: &mut [Window]) {
@@ -77,11 +72,6 @@ fn mark_corners(rail: &Rail, windows: &mut [Window]) {
         window.behind_corner = rail.has_corner_between(before, window.from);
         before = window.to;
     }
-}
-
-/// What to take from the last sample's arc length to come before the first one's.
-fn wrap(first: usize, rail: &Rail) -> f64 {
-    if first == 0 { rail.length() } else { 0.0 }
 }
 
 /// An odd number of samples on each edge, so that its middle is one: a window in the middle of a short
@@ -100,15 +90,11 @@ fn sample_positions(rail: &Rail) -> Vec<f64> {
     found
 }
 
-fn owner_at(site: &Site, rail: &Rail, s: f64) -> Option<u32> {
-    site.tooth_at(rail, s).map(|(_, owner)| owner)
-}
-
 /// Between a place where a tooth can stand and one where it cannot: nearly the last where it can.
-fn last_good(site: &Site, rail: &Rail, owner: u32, good: f64, bad: f64) -> f64 {
+fn last_good(can_stand: impl Fn(f64) -> bool, good: f64, bad: f64) -> f64 {
     let halved = |(good, bad): (f64, f64), _| {
         let middle = (good + bad) / 2.0;
-        if owner_at(site, rail, middle) == Some(owner) { (middle, bad) } else { (good, middle) }
+        if can_stand(middle) { (middle, bad) } else { (good, middle) }
     };
     (0..HALVINGS).fold((good, bad), halved).0
 }
