@@ -1,8 +1,11 @@
+import { createServer } from 'node:net';
 import { defineConfig } from '@playwright/test';
 import { browser } from './scripts/setup.mjs';
 
 const executablePath = await browser();
-const port = 4273;
+/** A port that nobody uses; the workers, which read this file again, hear of it by the environment. */
+process.env['FOOTHOLD_PORT'] ??= String(await freePort());
+const port = process.env['FOOTHOLD_PORT'];
 
 export default defineConfig({
   testDir: 'tests/e2e',
@@ -33,3 +36,14 @@ export default defineConfig({
     reuseExistingServer: false,
   },
 });
+
+function freePort(): Promise<number> {
+  return new Promise((resolve, reject) => {
+    const server = createServer();
+    server.on('error', reject);
+    server.listen(0, () => {
+      const address = server.address();
+      server.close(() => resolve(typeof address === 'object' && address !== null ? address.port : 0));
+    });
+  });
+}

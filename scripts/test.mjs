@@ -20,7 +20,7 @@ const groups = {
   check: [
     ['cargo fmt', () => run('cargo', ['fmt', '--check'])],
     ['clippy', () => clippy('--all-targets', '--features', 'schema')],
-    ['clippy wasm32', () => clippy('--lib', '--tests', '--target', wasmTarget)],
+    ['clippy wasm32', () => clippy('--lib', '--target', wasmTarget)],
     ['build', build],
     ['types: page', () => typeCheck('www/tsconfig.json')],
     ['types: workers', () => typeCheck('www/tsconfig.worker.json')],

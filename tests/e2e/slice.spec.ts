@@ -2,7 +2,7 @@
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { foothold } from '../node/command.ts';
-import { binaryStl, box, bunny } from '../node/shapes.ts';
+import { ball, binaryStl, box, bunny, readStl, type Triangle, teapot } from '../node/shapes.ts';
 import {
   cancelButton,
   download,
@@ -16,6 +16,14 @@ import {
   sliceButton,
   test,
 } from './page.ts';
+
+/** Four more models whose bytes are compared; the scan is the fifth. */
+const models: Readonly<Record<string, () => Triangle[]>> = {
+  box: () => box(30, 20, 10),
+  teapot: () => teapot(),
+  ball: () => ball(12, 24),
+  bracket: () => readStl(readFileSync(new URL('../../www/public/sample.stl', import.meta.url))),
+};
 
 function inFolder(folder: string, name: string, bytes: Uint8Array | string): string {
   mkdirSync(folder, { recursive: true });
@@ -63,6 +71,23 @@ test('a scan: open, slice, move the slider, download; bytes as from the command 
     expect(readFileSync(path.join(outputDir, `${workers}.gcode`)).equals(bytes), `--workers ${workers}`).toBe(true);
   }
 });
+
+for (const [name, triangles] of Object.entries(models)) {
+  test(`${name}: the page and the command line write the same bytes`, async ({ page }, { outputDir }) => {
+    const stl = inFolder(outputDir, `${name}.stl`, binaryStl(triangles()));
+    await ready(page);
+    await openFile(page, stl);
+    await expect(page.getByText(`${name}.stl`, { exact: true })).toBeVisible();
+    await sliceButton(page).click();
+    await expect(downloadButton(page)).toBeEnabled();
+    const bytes = readFileSync((await download(page)).file);
+    for (const workers of ['1', '2']) {
+      const ended = await foothold(['slice', stl, '-o', `${workers}.gcode`, '--workers', workers], outputDir);
+      expect(ended).toMatchObject({ code: 0, err: '' });
+      expect(readFileSync(path.join(outputDir, `${workers}.gcode`)).equals(bytes), `--workers ${workers}`).toBe(true);
+    }
+  });
+}
 
 test('cancel stops the job at once, keeps the model, and the page goes on', async ({ page }, { outputDir }) => {
   await ready(page);

@@ -7,13 +7,16 @@ import { problemBox } from './problem-box.ts';
 
 /** Sends `open-file` with a File. */
 export class DropZone extends Part {
-  static override properties = { model: { attribute: false }, over: { state: true } };
+  static override properties = { model: { attribute: false }, starting: { type: Boolean }, over: { state: true } };
   declare model: ModelState;
+  /** The engine is not there yet. */
+  declare starting: boolean;
   declare over: boolean;
 
   constructor() {
     super();
     this.model = { kind: 'none' };
+    this.starting = false;
     this.over = false;
   }
 
@@ -49,7 +52,7 @@ export class DropZone extends Part {
   #facts(): TemplateResult | typeof nothing {
     switch (this.model.kind) {
       case 'none':
-        return nothing;
+        return this.starting ? html`<p class="hint">${en.loading}</p>` : nothing;
       case 'reading':
         return html`<p class="model-name">${en.model.reading(this.model.source.name)}</p>`;
       case 'failed':

@@ -62,7 +62,7 @@ export class FootholdApp extends Part {
       <main class="page">
         <div class="column prepare">
           ${typeof this.state.engine === 'string' ? nothing : problemBox(this.state.engine)}
-          <drop-zone .model=${this.state.model} @open-file=${this.#open}></drop-zone>
+          <drop-zone .model=${this.state.model} .starting=${this.state.engine === 'starting'} @open-file=${this.#open}></drop-zone>
           ${this.#settings()} ${this.#job()}
         </div>
         <section class="view" aria-label=${en.view.heading}>${this.#tabs()} ${this.#picture()}</section>

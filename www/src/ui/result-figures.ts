@@ -1,11 +1,25 @@
 // What the print takes: time, filament, cost, and which colour stands for what.
 import { html, nothing, type TemplateResult } from 'lit';
-import type { Report, RoleUse } from '../generated/report.ts';
+import type { Report } from '../generated/report.ts';
 import { en } from '../i18n/en.ts';
 import type { LegendEntry } from '../messages.ts';
 import { words } from '../settings/fields.ts';
 import type { Remark } from '../state.ts';
 import { Part } from './part.ts';
+
+/** Roles that G-code names by one word, so that a layer read from it shows them in one colour. */
+const sameWord = [
+  ['bottom_skin', 'solid_infill'],
+  ['skirt', 'brim', 'teeth'],
+  ['raft', 'support'],
+];
+
+/** One colour of the picture: its roles in the print, and what they add up to. */
+interface Row {
+  readonly roles: readonly string[];
+  readonly length_mm: number;
+  readonly time_s: number;
+}
 
 /** Sends `layer-change` when a remark's layer is chosen. */
 export class ResultFigures extends Part {
@@ -61,8 +75,6 @@ export class ResultFigures extends Part {
   }
 
   #legend(report: Report): TemplateResult {
-    const shown = new Map(this.legend.map((entry) => [entry.role, entry]));
-    const rows = Object.entries(report.by_role).filter(([, it]) => it.length_mm > 0);
     return html`<table class="legend">
       <caption>${en.figures.legend}</caption>
       <thead>
@@ -74,18 +86,20 @@ export class ResultFigures extends Part {
         </tr>
       </thead>
       <tbody>
-        ${rows.map(([role, it]) => this.#row(role, shown.get(role), it))}
+        ${rowsOf(report).map((row) => this.#row(row))}
       </tbody>
     </table>`;
   }
 
-  #row(role: string, shown: LegendEntry | undefined, { length_mm, time_s }: RoleUse): TemplateResult {
-    const colour = this.#colours.get(role);
+  #row({ roles, length_mm, time_s }: Row): TemplateResult {
+    const drawn = sameWord.find((group) => group.includes(roles[0] ?? '')) ?? roles;
+    const colour = drawn.map((role) => this.#colours.get(role)).find((it) => it !== undefined);
+    const here = this.legend.filter(({ role }) => drawn.includes(role)).reduce((sum, it) => sum + it.length_mm, 0);
     return html`<tr>
       <th scope="row">
-        <i class="swatch" style=${colour === undefined ? '' : `background:${colour}`} aria-hidden="true"></i>${words(role)}
+        <i class="swatch" style=${colour === undefined ? '' : `background:${colour}`} aria-hidden="true"></i>${labelOf(roles)}
       </th>
-      <td>${shown === undefined ? '' : en.figures.metres(shown.length_mm)}</td>
+      <td>${here === 0 ? '' : en.figures.metres(here)}</td>
       <td>${en.figures.metres(length_mm)}</td>
       <td>${en.figures.duration(time_s)}</td>
     </tr>`;
@@ -105,6 +119,28 @@ export class ResultFigures extends Part {
       ${en.figures.showLayer(layer + 1)}
     </button>`;
   }
+}
+
+/** The report's roles with those of one colour together, in the report's order. */
+function rowsOf(report: Report): readonly Row[] {
+  const rows = new Map<unknown, Row>();
+  for (const [role, { length_mm, time_s }] of Object.entries(report.by_role)) {
+    if (length_mm === 0) continue;
+    const key = sameWord.find((group) => group.includes(role)) ?? role;
+    const before = rows.get(key) ?? { roles: [], length_mm: 0, time_s: 0 };
+    rows.set(key, {
+      roles: [...before.roles, role],
+      length_mm: before.length_mm + length_mm,
+      time_s: before.time_s + time_s,
+    });
+  }
+  return [...rows.values()];
+}
+
+/** "Bottom skin, solid infill" */
+function labelOf(roles: readonly string[]): string {
+  const label = roles.map((role) => words(role).toLowerCase()).join(', ');
+  return label.charAt(0).toUpperCase() + label.slice(1);
 }
 
 customElements.define('result-figures', ResultFigures);
