@@ -3,7 +3,8 @@
 use std::fmt;
 
 use super::scene::Scene;
-use crate::gcode::read;
+use crate::gcode::LayerSummary;
+use crate::gcode::read::{self, ReadLayer};
 use crate::pipeline::{Clock, Job};
 use crate::polygon::measure::Bounds;
 use crate::polygon::{DVec2, dvec2};
@@ -47,8 +48,7 @@ impl Scene {
     pub fn of_job_layer(job: &Job, index: usize, clock: Clock) -> Option<Scene> {
         let spec = job.specs().get(index)?;
         let sliced = job.slice(index, index + 1, clock);
-        let mut file = read::read(sliced.texts.first()?, job.settings().filament.diameter);
-        let layer = file.layers.pop().unwrap_or(file.prelude);
+        let layer = read_alone(sliced.texts.first()?, sliced.meta.summaries.first()?, job);
         let section = slice_mesh(job.mesh(), Axis::Z, &[spec.slice_z], 0.0).pop()?;
         let [width, depth] = job.settings().printer.bed_size;
         let bed = Bounds { min: DVec2::ZERO, max: dvec2(width, depth) };
@@ -68,6 +68,18 @@ impl Scene {
             _ => Ok(Scene::of_section(&area)),
         }
     }
+}
+
+/// A layer's text read without the file around it, which sets the extruder's mode and brings the
+/// nozzle to the first bead.
+fn read_alone(text: &[u8], summary: &LayerSummary, job: &Job) -> ReadLayer {
+    let start = summary.stops.map_or(DVec2::ZERO, |stops| stops.start);
+    let LayerSummary { print_z, height, .. } = summary;
+    let mut whole =
+        format!("M83\n;HEIGHT:{height}\nG1 X{:.3} Y{:.3} Z{print_z}\n", start.x, start.y).into_bytes();
+    whole.extend_from_slice(text);
+    let mut file = read::read(&whole, job.settings().filament.diameter);
+    file.layers.pop().unwrap_or(file.prelude)
 }
 
 fn parse_plane(text: &str) -> Option<(Axis, f64)> {

@@ -87,7 +87,7 @@ impl Job {
 
 /// Works a range that another engine shared.
 #[wasm_bindgen]
-pub(super) fn slice_share(share: &[u8]) -> Result<Chunk, Thrown> {
+pub fn slice_share(share: &[u8]) -> Result<Chunk, Thrown> {
     let share: Share = postcard::from_bytes(share).map_err(internal_error)?;
     Chunk::new(share.slice(&now))
 }

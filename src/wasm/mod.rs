@@ -9,10 +9,15 @@ mod job;
 mod model;
 mod scene;
 
+pub use convert::Thrown;
+pub use job::{Chunk, Job, JobResult, slice_share};
+pub use model::{Model, ModelReader};
+pub use scene::Scene;
+
 use wasm_bindgen::prelude::*;
 
 use crate::settings::Settings;
-use convert::{Thrown, settings_error};
+use convert::settings_error;
 
 #[wasm_bindgen(start)]
 fn start() {

@@ -296,3 +296,18 @@ fn is_ear(points: &[DVec2], ring: &[usize], place: usize) -> bool {
     let others = ring.iter().filter(|i| ![a, b, c].contains(&points[**i]));
     (b - a).perp_dot(c - b) > 0.0 && !others.into_iter().any(|&i| holds(points[i]))
 }
+
+/// A part with a bit of everything: a bracket, a ball, a ring and a thin wall, apart on the bed.
+pub fn medley() -> Mesh {
+    together(&[
+        bracket(20.0, 5.0, 8.0),
+        moved(&sphere(Vec3::new(0.0, 0.0, 6.0), 6.0, 24, 36), Vec3::new(40.0, 0.0, 0.0)),
+        moved(&torus(8.0, 3.0, 48, 24), Vec3::new(0.0, 30.0, 3.0)),
+        moved(&cuboid(Vec3::ZERO, Vec3::new(15.0, 0.7, 8.0)), Vec3::new(30.0, 30.0, 0.0)),
+    ])
+}
+
+/// FNV-1a over bytes, 64 bits: a short name for a long text.
+pub fn fingerprint(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &b| (hash ^ u64::from(b)).wrapping_mul(0x100_0000_01b3))
+}

@@ -1,0 +1,103 @@
+//! The exported API in headless Node: same bytes by every way, errors with their names, and the
+//! bytes of the native build (`tests/gcode_golden.rs` holds the same golden file against that).
+#![cfg(target_arch = "wasm32")]
+
+mod common;
+
+use foothold::mesh::stl::write_binary;
+use foothold::wasm::{Chunk, Job, Model, ModelReader, default_settings, resolve_settings, slice_share};
+use wasm_bindgen::{JsCast, JsValue};
+use wasm_bindgen_test::wasm_bindgen_test;
+
+fn model(bytes: &[u8], chunk: usize) -> Model {
+    let mut reader = ModelReader::new(Some(bytes.len() as f64));
+    for piece in bytes.chunks(chunk) {
+        reader.push(piece).expect("good bytes");
+    }
+    reader.finish().expect("a good model")
+}
+
+fn job(settings: &str) -> Job {
+    let stl = write_binary(&common::medley());
+    let mut job = Job::new(vec![model(&stl, 777)], vec!["medley".to_owned()], settings).expect("it fits");
+    job.prepare().expect("good settings");
+    job
+}
+
+/// Takes in a worked range; gives the text of each of its layers.
+fn take(job: &mut Job, mut chunk: Chunk) -> Vec<Vec<u8>> {
+    job.add(&chunk.meta()).expect("good figures");
+    let (text, offsets) = (chunk.text(), chunk.layer_offsets());
+    offsets.windows(2).map(|w| text[w[0] as usize..w[1] as usize].to_vec()).collect()
+}
+
+fn finish(mut job: Job, layers: &[Vec<u8>]) -> Vec<u8> {
+    let result = job.finish().expect("all layers are there");
+    let glue = result.glue();
+    let piece = |p: &[u32]| {
+        let source = if p[0] == 0 { &glue } else { &layers[p[0] as usize - 1] };
+        source[p[1] as usize..p[2] as usize].to_vec()
+    };
+    result.pieces().chunks(3).flat_map(piece).collect()
+}
+
+fn error_name(thrown: impl Into<JsValue>) -> (String, String) {
+    let error: js_sys::Error = thrown.into().unchecked_into();
+    (error.name().into(), error.message().into())
+}
+
+#[wasm_bindgen_test]
+fn own_ranges_and_shares_give_the_golden_bytes() {
+    let golden = include_str!("golden/medley.txt");
+    let mut whole = job(&default_settings());
+    let count = whole.layer_count().expect("a running job");
+    let chunk = whole.slice(0, count).expect("sliced");
+    let layers = take(&mut whole, chunk);
+    let file = finish(whole, &layers);
+    let fingerprint = format!("fingerprint {:016x}", common::fingerprint(&file));
+    assert!(golden.contains(&fingerprint), "{fingerprint} is not that of the native build:\n{golden}");
+
+    let mut shared = job(&default_settings());
+    let mut layers = Vec::new();
+    for first in (0..count).step_by(16) {
+        let share = shared.share(first, (first + 16).min(count)).expect("shared");
+        layers.extend(take(&mut shared, slice_share(&share).expect("sliced")));
+    }
+    assert!(finish(shared, &layers) == file);
+}
+
+#[wasm_bindgen_test]
+fn the_report_is_json_and_the_job_is_over_after_it() {
+    let mut job = job(&default_settings());
+    let count = job.layer_count().expect("a running job");
+    let chunk = job.slice(0, count).expect("sliced");
+    take(&mut job, chunk);
+    let report = job.finish().expect("all layers are there").report().expect("JSON");
+    let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+    assert_eq!(report["layers"].as_u64(), Some(count as u64));
+    assert!(report["time_s"].as_f64().expect("a number") > 60.0);
+    let Err(again) = job.finish() else { panic!("finished twice") };
+    assert_eq!(error_name(again).0, "InternalError");
+}
+
+#[wasm_bindgen_test]
+fn errors_have_their_names_and_causes() {
+    let Err(unknown) = resolve_settings(vec![], vec!["walls.cuont=2".to_owned()]) else { panic!("accepted") };
+    assert_eq!(
+        error_name(unknown),
+        ("SettingsError".to_owned(), "walls.cuont: there is no such setting".to_owned())
+    );
+
+    let stl = write_binary(&common::cube(20.0));
+    let mut cut = ModelReader::new(None);
+    cut.push(&stl[..stl.len() - 60]).expect("good so far");
+    let Err(truncated) = cut.finish() else { panic!("accepted") };
+    let (name, cause) = error_name(truncated);
+    assert_eq!(name, "ModelError");
+    assert!(cause.starts_with("truncated: header says 12 triangles, file holds 10"), "{cause}");
+
+    let tall = write_binary(&common::cuboid(glam::Vec3::ZERO, glam::Vec3::new(10.0, 10.0, 300.0)));
+    let placed = Job::new(vec![model(&tall, 4096)], vec!["tall".to_owned()], &default_settings());
+    let Err(tall) = placed else { panic!("accepted") };
+    assert_eq!(error_name(tall).0, "FitError");
+}
