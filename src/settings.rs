@@ -7,6 +7,7 @@ use serde_json::{Map, Value};
 use crate::adhesion::AdhesionOptions;
 use crate::gcode::{FilamentOptions, GcodeOptions, PrinterOptions, RetractionOptions, SpeedOptions};
 use crate::options::{Checked, OutOfRange, join_path};
+use crate::orientation::OrientationOptions;
 use crate::region::first_layer::FirstLayerOptions;
 use crate::region::shell::SkinOptions;
 use crate::slice::LayerOptions;
@@ -33,6 +34,8 @@ crate::options! {
         infill: group InfillOptions;
         /// Where loops start.
         seam: group SeamOptions;
+        /// Which way up the part is printed.
+        orientation: group OrientationOptions;
         /// What holds the part on the bed.
         adhesion: group AdhesionOptions;
         /// Speeds by role.

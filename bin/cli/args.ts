@@ -29,6 +29,12 @@ export type Command =
       readonly out: string;
       readonly settings: SettingWords;
     }
+  | {
+      readonly kind: 'orient' | 'compare';
+      readonly model: string;
+      readonly settings: SettingWords;
+      readonly report: string | undefined;
+    }
   | { readonly kind: 'settings'; readonly settings: SettingWords; readonly schema: boolean }
   | { readonly kind: 'help' }
   | { readonly kind: 'version' };
@@ -39,11 +45,15 @@ usage: foothold slice MODEL... [-o OUT.gcode] [--settings F.json] [--set path=va
                 [--report R.json] [--workers N]
        foothold inspect MODEL [--report R.json]
        foothold draw MODEL (--layer K | --plane y=12.5) -o OUT.svg [--settings F.json] [--set path=value]...
+       foothold orient MODEL [--report R.json] [--layer-height T]
+       foothold compare MODEL [--report R.json]
        foothold settings [--schema] [--settings F.json] [--set path=value]...
 
   slice      writes G-code; several models are arranged on the bed
   inspect    counts triangles, shells and faults, and measures the model
   draw       one layer (K counts from 0) or one vertical plane as a picture
+  orient     which way up needs the least support, with the figures of each direction
+  compare    skirt, brim, raft and teeth side by side
   settings   all settings, or their JSON Schema
 
   -o, --output     file to write, whole or not at all; - is standard output
@@ -77,10 +87,14 @@ export function parseCommand(words: readonly string[]): Command {
       return inspect(rest);
     case 'draw':
       return draw(rest);
+    case 'orient':
+      return orient(rest);
+    case 'compare':
+      return compare(rest);
     case 'settings':
       return settings(rest);
     default:
-      throw new UsageError(`no command "${name}": slice, inspect, draw and settings are there`);
+      throw new UsageError(`no command "${name}": slice, inspect, draw, orient, compare and settings are there`);
   }
 }
 
@@ -125,6 +139,30 @@ function drawn(layer: string | undefined, plane: string | undefined): { layer: n
     throw new UsageError(`--plane ${plane}: expected x or y, = and a number of mm, such as y=12.5`);
   }
   return { plane };
+}
+
+function orient(words: readonly string[]): Command {
+  const options = { ...settingOptions, ...report, 'layer-height': { type: 'string' } } as const;
+  const { values, positionals } = parsed({ args: [...words], options, allowPositionals: true });
+  const height = values['layer-height'];
+  const { files, sets } = settingWords(values);
+  return {
+    kind: 'orient',
+    model: oneModel('orient', positionals),
+    settings: { files, sets: height === undefined ? sets : [...sets, `orientation.layer_height=${height}`] },
+    report: values.report,
+  };
+}
+
+function compare(words: readonly string[]): Command {
+  const options = { ...settingOptions, ...report } as const;
+  const { values, positionals } = parsed({ args: [...words], options, allowPositionals: true });
+  return {
+    kind: 'compare',
+    model: oneModel('compare', positionals),
+    settings: settingWords(values),
+    report: values.report,
+  };
 }
 
 function settings(words: readonly string[]): Command {

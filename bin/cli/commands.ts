@@ -9,6 +9,7 @@ import { inWords } from './inspection.ts';
 import { nodeLanes } from './lanes.ts';
 import { Output } from './output.ts';
 import { progressBar } from './progress.ts';
+import { adhesionTable, directionTable } from './tables.ts';
 
 type Of<K extends Command['kind']> = Extract<Command, { kind: K }>;
 
@@ -56,6 +57,33 @@ export async function draw({ model, what, out, settings }: Of<'draw'>): Promise<
     await pool.open([source]);
     target.write([await pool.draw(all, what)]);
     target.finish();
+  });
+}
+
+export function orient(command: Of<'orient'>): Promise<void> {
+  return weigh(command, (pool, all) => pool.orient(all), directionTable);
+}
+
+export function compare(command: Of<'compare'>): Promise<void> {
+  return weigh(command, (pool, all) => pool.compare(all), adhesionTable);
+}
+
+/** Opens the model, asks the engine to weigh possibilities, and shows them as a table. */
+async function weigh(
+  { model, settings: words, report }: Of<'orient' | 'compare'>,
+  ask: (pool: Pool, settings: string) => Promise<string>,
+  table: (figures: string) => string,
+): Promise<void> {
+  const source = openModel(model);
+  refuseClash(report === undefined ? [] : [report], [model]);
+  await withPool(1, async (pool) => {
+    const all = await resolve(pool, words);
+    const reportOut = maybe(report);
+    await pool.open([source]);
+    const figures = await ask(pool, all);
+    reportOut?.write([figures, '\n']);
+    reportOut?.finish();
+    if (report !== '-') new Output('-').write([table(figures)]);
   });
 }
 

@@ -30,6 +30,10 @@ async function perform(command: Command): Promise<void> {
       return commands.inspect(command);
     case 'draw':
       return commands.draw(command);
+    case 'orient':
+      return commands.orient(command);
+    case 'compare':
+      return commands.compare(command);
     case 'settings':
       return commands.settings(command);
     case 'help':

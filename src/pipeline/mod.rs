@@ -4,9 +4,11 @@
 //! plan, base layers. [`Job::slice`] works a range of layers; an engine that does not hold the job
 //! gets a [`Share`] and does the same. [`Job::finish`] joins the layers in one pass.
 
+mod compare;
 mod place;
 mod range;
 mod report;
+mod turn;
 
 use std::fmt;
 
@@ -14,14 +16,18 @@ use glam::DMat4;
 
 pub use place::{FitError, Placed, place_on_bed};
 pub use range::{PRINT_RESOLUTION, RangeMeta, RangePlan, RangeResult, Share};
+use turn::turn_models;
+
 pub use report::{AdhesionReport, FilamentReport, ModelReport, Report, Timing, Warning};
 
 use crate::adhesion::{
-    AdhesionError, AdhesionKind, AdhesionWarning, FirstLayer, Foundation, RaftLayer, lay_foundation,
+    AdhesionError, AdhesionKind, AdhesionOptions, AdhesionWarning, FirstLayer, Foundation, RaftLayer,
+    lay_foundation,
 };
 use crate::gcode::{FileNotes, GcodeError, Joined, LayerSummary, format_duration, join};
 use crate::mesh::LoadedModel;
 use crate::mesh::Mesh;
+use crate::orientation::{OrientationError, OrientationReport};
 use crate::polygon::measure::Bounds;
 use crate::polygon::{DVec2, PolygonSet};
 use crate::region::Path;
@@ -49,6 +55,8 @@ pub enum JobError {
     Fit(FitError),
     /// Nothing to print: no model, or no model with a volume.
     Empty,
+    /// No orientation can be proposed for a model.
+    Orientation(OrientationError),
     /// Settings under `adhesion` that contradict each other.
     Adhesion(AdhesionError),
     /// A start or end code of the settings cannot be used.
@@ -65,6 +73,7 @@ impl fmt::Display for JobError {
         match self {
             JobError::Fit(error) => error.fmt(f),
             JobError::Empty => write!(f, "there is nothing to print"),
+            JobError::Orientation(error) => error.fmt(f),
             JobError::Adhesion(error) => error.fmt(f),
             JobError::Gcode(error) => error.fmt(f),
             JobError::LayerMissing { index } => write!(f, "layer {index} was never worked"),
@@ -85,6 +94,7 @@ pub struct Job {
     specs: Vec<LayerSpec>,
     placements: Vec<DMat4>,
     foundation: Vec<Vec<Path>>,
+    orientation: Option<OrientationReport>,
     adhesion: AdhesionReport,
     /// What is known of each layer so far.
     layers: Vec<Option<LayerSummary>>,
@@ -98,8 +108,10 @@ impl Job {
     pub fn new(models: &[NamedModel], settings: Settings, clock: Clock) -> Result<Job, JobError> {
         let started_ms = clock();
         crate::gcode::check_templates(&settings.printer).map_err(JobError::Gcode)?;
-        let meshes: Vec<&Mesh> = models.iter().map(|m| &m.model.mesh).collect();
+        let turned = turn_models(models, &settings)?;
+        let meshes: Vec<&Mesh> = turned.meshes.iter().collect();
         let Placed { mesh, placements } = place_on_bed(&meshes, &settings.printer).map_err(JobError::Fit)?;
+        let placements = placements.iter().zip(&turned.turns).map(|(place, turn)| *place * *turn).collect();
         let height = mesh.bounds().map_or(0.0, |b| f64::from(b.max.z));
         if height <= 0.0 {
             return Err(JobError::Empty);
@@ -113,7 +125,8 @@ impl Job {
             name: models.first().map_or_else(String::new, |m| m.name.clone()),
             spans: (0..mesh.triangles.len()).map(z_span).collect(),
             layers: vec![None; specs.len()],
-            warnings: model_warnings(models),
+            warnings: model_warnings(models).into_iter().chain(turned.warnings).collect(),
+            orientation: turned.report,
             foundation: Vec::new(),
             adhesion: AdhesionReport::default(),
             timing: Timing::default(),
@@ -153,7 +166,7 @@ impl Job {
     /// Works out what all layers share. To be called once, before any range; a raft adds layers.
     pub fn prepare(&mut self, clock: Clock) -> Result<(), JobError> {
         let started = clock();
-        let foundation = self.lay_foundation()?;
+        let foundation = self.lay_foundation(&self.settings.adhesion)?;
         let kind = self.settings.adhesion.kind;
         self.adhesion = AdhesionReport::new(kind, &foundation.figures, clock() - started);
         self.timing.adhesion = clock() - started;
@@ -168,8 +181,8 @@ impl Job {
     }
 
     /// What is laid around or below the part's first layer.
-    fn lay_foundation(&self) -> Result<Foundation, JobError> {
-        let Settings { adhesion, first_layer, layers, printer, .. } = &self.settings;
+    fn lay_foundation(&self, adhesion: &AdhesionOptions) -> Result<Foundation, JobError> {
+        let Settings { first_layer, layers, printer, .. } = &self.settings;
         let bottom = slice_mesh(&self.mesh, Axis::Z, &[self.specs[0].slice_z], PRINT_RESOLUTION);
         let section = bottom.into_iter().next().unwrap_or_default().area;
         // On a raft nothing is squeezed against the bed.
@@ -294,6 +307,7 @@ impl Job {
             time_s: totals.time_s,
             by_role: totals.by_role.clone(),
             adhesion: self.adhesion.timed(&totals.by_role),
+            orientation: self.orientation.clone(),
             timing_ms: self.timing,
             warnings: self.warnings.clone(),
         }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::adhesion::{AdhesionFigures, AdhesionKind};
 use crate::gcode::RoleUse;
+use crate::orientation::OrientationReport;
 use crate::polygon::DVec2;
 use crate::region::Role;
 
@@ -148,6 +149,9 @@ pub struct Report {
     pub by_role: BTreeMap<Role, RoleUse>,
     /// What holds the part on the bed.
     pub adhesion: AdhesionReport,
+    /// The directions compared and the choice; only with `orientation.mode` auto.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<OrientationReport>,
     /// Where the time of the computation went.
     pub timing_ms: Timing,
     /// Remarks, those on the whole job first, then by layer.

@@ -6,6 +6,7 @@ use js_sys::Error;
 use wasm_bindgen::prelude::*;
 
 use crate::mesh::StlError;
+use crate::orientation::OrientationError;
 use crate::pipeline::JobError;
 use crate::settings::{Settings, SettingsError};
 
@@ -45,11 +46,17 @@ pub(super) fn internal_error(cause: impl Display) -> Thrown {
     thrown("InternalError", cause)
 }
 
+/// A model that no orientation can be proposed for.
+pub(super) fn orientation_error(cause: OrientationError) -> Thrown {
+    let name = if matches!(cause, OrientationError::Options(_)) { "SettingsError" } else { "ModelError" };
+    thrown(name, cause)
+}
+
 /// A job that cannot be done.
 pub(super) fn job_error(cause: JobError) -> Thrown {
     let name = match cause {
         JobError::Fit(_) => "FitError",
-        JobError::Empty => "ModelError",
+        JobError::Empty | JobError::Orientation(_) => "ModelError",
         JobError::Gcode(_) | JobError::Adhesion(_) => "SettingsError",
         JobError::LayerMissing { .. } => "InternalError",
     };

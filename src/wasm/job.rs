@@ -30,7 +30,7 @@ impl Job {
         Ok(Job { inner: Some(inner) })
     }
 
-    /// Number of layers.
+    /// Number of layers; known after `prepare`.
     pub fn layer_count(&self) -> Result<usize, Thrown> {
         Ok(self.inner()?.layer_count())
     }
@@ -61,6 +61,12 @@ impl Job {
     pub fn finish(&mut self) -> Result<JobResult, Thrown> {
         let job = self.inner.take().ok_or_else(|| internal_error("the job is over"))?;
         Ok(JobResult { inner: job.finish(&now).map_err(job_error)? })
+    }
+
+    /// Skirt, brim, raft and teeth beside each other, as a JSON list (`AdhesionReport`).
+    pub fn compare(&self) -> Result<String, Thrown> {
+        let kinds = self.inner()?.compare(&now).map_err(job_error)?;
+        serde_json::to_string(&kinds).map_err(internal_error)
     }
 
     /// One layer as an SVG picture.

@@ -2,9 +2,10 @@
 
 use wasm_bindgen::prelude::*;
 
-use super::convert::{Thrown, internal_error, model_error, now};
+use super::convert::{Thrown, internal_error, model_error, now, orientation_error, settings_from};
 use super::scene::Scene;
 use crate::mesh::{LoadedModel, StlReader};
+use crate::orientation::orient;
 use crate::view::{ModelPicture, Viewpoint};
 
 /// Reads an STL file from chunks of any size.
@@ -67,6 +68,14 @@ impl Model {
             _ => Viewpoint::Iso,
         };
         Scene::of_model(ModelPicture::new(&self.inner.mesh, viewpoint))
+    }
+
+    /// The six directions, sides of the hull and the choice, as JSON (`OrientationReport`);
+    /// `settings` is JSON. Throws a `ModelError` or a `SettingsError`.
+    pub fn orient(&self, settings: &str) -> Result<String, Thrown> {
+        let options = settings_from(settings)?.orientation;
+        let report = orient(&self.inner.mesh, &options, &mut |_, _| true).map_err(orientation_error)?;
+        serde_json::to_string(&report).map_err(internal_error)
     }
 
     /// A copy of the model.

@@ -38,7 +38,7 @@ export function fakeLanes({
         return { kind: 'open', inspections: request.sources.map(({ name }) => name), parse_ms: 1 };
       case 'begin':
         added = new Set();
-        return { kind: 'begin', layers };
+        return { kind: 'begin' };
       case 'share':
         return { kind: 'share', share: encoder.encode(JSON.stringify(request.range)) };
       case 'slice':
@@ -52,7 +52,7 @@ export function fakeLanes({
         if (added.size !== layers) throw new Error(`${added.size} of ${layers} layers were added`);
         return { kind: 'finish', ...joined(layers) };
       case 'prepare':
-        return { kind: 'prepare' };
+        return { kind: 'prepare', layers };
       case 'end':
         return { kind: 'end' };
       case 'settings':

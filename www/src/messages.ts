@@ -48,14 +48,16 @@ export type LeadRequest =
   | { readonly kind: 'end' }
   | { readonly kind: 'drawLayer'; readonly layer: number }
   | { readonly kind: 'drawPlane'; readonly spec: string }
+  | { readonly kind: 'orient'; readonly settings: string }
+  | { readonly kind: 'compare' }
   | { readonly kind: 'picture'; readonly view: PictureView }
   | { readonly kind: 'paint'; readonly camera: CameraNumbers; readonly theme: Theme };
 
 export type LeadReply =
   | { readonly kind: 'open'; readonly inspections: readonly string[]; readonly parse_ms: number }
   | { readonly kind: 'settings'; readonly settings: string }
-  | { readonly kind: 'begin'; readonly layers: number }
-  | { readonly kind: 'prepare' }
+  | { readonly kind: 'begin' }
+  | { readonly kind: 'prepare'; readonly layers: number }
   | { readonly kind: 'share'; readonly share: Uint8Array }
   | ({ readonly kind: 'slice' } & SlicedRange)
   | { readonly kind: 'add' }
@@ -63,6 +65,8 @@ export type LeadReply =
   | { readonly kind: 'end' }
   | { readonly kind: 'drawLayer'; readonly svg: string }
   | { readonly kind: 'drawPlane'; readonly svg: string }
+  | { readonly kind: 'orient'; readonly report: string }
+  | { readonly kind: 'compare'; readonly report: string }
   | { readonly kind: 'picture'; readonly bounds: Bounds }
   | { readonly kind: 'paint'; readonly bitmap: ImageBitmap };
 

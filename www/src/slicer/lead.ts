@@ -27,10 +27,11 @@ export class Lead {
       case 'settings':
         return { kind: 'settings', settings: this.#engine.resolve_settings([...request.files], [...request.sets]) };
       case 'begin':
-        return { kind: 'begin', layers: this.#begin(request.settings) };
+        this.#begin(request.settings);
+        return { kind: 'begin' };
       case 'prepare':
         this.#current().prepare();
-        return { kind: 'prepare' };
+        return { kind: 'prepare', layers: this.#current().layer_count() };
       case 'share':
         return { kind: 'share', share: this.#current().share(request.range.first, request.range.last) };
       case 'slice':
@@ -47,6 +48,10 @@ export class Lead {
         return { kind: 'drawLayer', svg: this.#current().draw_layer(request.layer) };
       case 'drawPlane':
         return { kind: 'drawPlane', svg: this.#current().draw_plane(request.spec) };
+      case 'orient':
+        return { kind: 'orient', report: this.#first().orient(request.settings) };
+      case 'compare':
+        return { kind: 'compare', report: this.#current().compare() };
       case 'picture':
         return { kind: 'picture', bounds: this.#picture(request.view) };
       case 'paint':
@@ -82,14 +87,13 @@ export class Lead {
     }
   }
 
-  #begin(settings: string): number {
+  #begin(settings: string): void {
     this.#end();
     this.#job = new this.#engine.Job(
       this.#models.map((model) => model.clone_model()),
       this.#names,
       settings,
     );
-    return this.#job.layer_count();
   }
 
   #slice(first: number, last: number): SlicedRange {
@@ -110,11 +114,15 @@ export class Lead {
     return joined;
   }
 
-  #picture(view: string): Bounds {
+  #first(): Model {
     const [model] = this.#models;
-    if (model === undefined) throw new Error('there is no model to show');
+    if (model === undefined) throw new Error('there is no model');
+    return model;
+  }
+
+  #picture(view: string): Bounds {
     this.#scene?.free();
-    this.#scene = model.picture(view);
+    this.#scene = this.#first().picture(view);
     return boundsOf(this.#scene);
   }
 

@@ -101,6 +101,22 @@ export class Pool {
     return svg;
   }
 
+  /** Which way up the first model needs the least support: an OrientationReport as JSON. */
+  async orient(settings: string): Promise<string> {
+    await this.ready();
+    return (await this.#guard(this.#someLead().call({ kind: 'orient', settings }))).report;
+  }
+
+  /** What each kind of base layer comes to: a list of AdhesionReports as JSON. */
+  async compare(settings: string): Promise<string> {
+    await this.ready();
+    const lead = this.#someLead();
+    await this.#guard(lead.call({ kind: 'begin', settings }));
+    const { report } = await this.#guard(lead.call({ kind: 'compare' }));
+    await lead.call({ kind: 'end' });
+    return report;
+  }
+
   /** Makes a picture of the first model, to be painted; resolves to what it covers. */
   async picture(view: PictureView): Promise<Bounds> {
     const lead = this.#someLead();
@@ -128,12 +144,12 @@ export class Pool {
     // This job talks to this lead only: a cancel closes it, and the job ends at its next word.
     const lead = this.#someLead();
     await this.ready();
-    const { layers } = await lead.call({ kind: 'begin', settings });
-    progress({ stage: 'prepare', done: 0, total: layers });
+    progress({ stage: 'prepare', done: 0, total: 0 });
+    await lead.call({ kind: 'begin', settings });
+    const { layers } = await lead.call({ kind: 'prepare' });
     const helpers = this.#startHelpers(layers);
     let texts: Uint8Array<ArrayBuffer>[];
     try {
-      await lead.call({ kind: 'prepare' });
       texts = await sliceLayers(lead, helpers, layers, progress);
     } finally {
       this.#closeHelpers(helpers);
@@ -144,7 +160,7 @@ export class Pool {
     return { layers: texts, joined };
   }
 
-  /** Starts the engines that a job of so many layers can use; they start while the lead prepares. */
+  /** Starts the engines that a job of so many layers can use. */
   #startHelpers(layers: number): readonly HelperLane[] {
     const useful = Math.ceil(layers / HELPER_LAYERS) - 1;
     const count = Math.max(0, Math.min(this.#workers - 1, useful));
