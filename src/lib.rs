@@ -24,12 +24,14 @@ pub mod adhesion;
 pub mod gcode;
 pub mod mesh;
 pub mod options;
+pub mod orientation;
 pub mod pipeline;
 pub mod polygon;
 pub mod printer;
 pub mod region;
 pub mod settings;
 pub mod slice;
+pub mod support;
 pub mod toolpath;
 pub mod view;
 #[cfg(target_arch = "wasm32")]

@@ -1,0 +1,123 @@
+//! Uniform layers of a turned part, those with one and the same section taken together.
+
+use std::ops::Range;
+
+use crate::mesh::Mesh;
+use crate::slice::LayerOptions;
+use crate::slice::heights::plan_layers;
+
+/// Where the layers are cut, and which of them share a section.
+#[derive(Debug)]
+pub(super) struct LayerStack {
+    /// Height of the part, mm.
+    pub(super) height: f64,
+    /// Planes of the cuts in the turned mesh's own z, ascending, mm.
+    pub(super) slice_z: Vec<f64>,
+    /// Neighbouring layers with one section, from the bed up.
+    pub(super) runs: Vec<Range<usize>>,
+}
+
+impl LayerStack {
+    /// Layers of `layer_height` mm from the part's lowest point up, cut at their middles.
+    pub(super) fn new(mesh: &Mesh, layer_height: f64) -> LayerStack {
+        let heights = || mesh.triangles.iter().flatten().map(|&v| f64::from(mesh.vertices[v as usize].z));
+        let bottom = heights().fold(f64::INFINITY, f64::min);
+        let height = (heights().fold(f64::NEG_INFINITY, f64::max) - bottom).max(0.0);
+        let options = LayerOptions { height: layer_height, first_height: layer_height };
+        let slice_z: Vec<f64> =
+            plan_layers(height, &options).iter().map(|layer| bottom + layer.slice_z).collect();
+        let runs = runs_between(&changes(mesh, &slice_z));
+        LayerStack { height, slice_z, runs }
+    }
+
+    /// The run that the layer belongs to.
+    pub(super) fn run_of(&self, layer: usize) -> usize {
+        self.runs.partition_point(|run| run.end <= layer)
+    }
+}
+
+/// Whether the section at plane k may differ from the one below it: a vertex lies between the two
+/// planes, or a facet that is not vertical crosses both.
+fn changes(mesh: &Mesh, slice_z: &[f64]) -> Vec<bool> {
+    let n = slice_z.len();
+    // The first plane above a vertex; a vertex in a plane counts as above it, as for the cuts.
+    let plane_above = |z: f32| slice_z.partition_point(|&h| h <= f64::from(z));
+    let mut starts = vec![0i32; n + 1];
+    for t in 0..mesh.triangles.len() {
+        let corners = mesh.corners(t);
+        let planes = corners.map(|v| plane_above(v.z));
+        let (low, high) = (planes[0].min(planes[1]).min(planes[2]), planes[0].max(planes[1]).max(planes[2]));
+        let vertical = {
+            let [a, b, c] = corners.map(|v| v.as_dvec3().truncate());
+            (b - a).perp_dot(c - a) == 0.0
+        };
+        if vertical {
+            planes.iter().filter(|&&p| p < n).for_each(|&p| {
+                starts[p] += 1;
+                starts[p + 1] -= 1;
+            });
+        } else if low < n {
+            starts[low] += 1;
+            starts[n.min(high + 1)] -= 1;
+        }
+    }
+    starts.truncate(n);
+    starts
+        .iter()
+        .scan(0, |open, start| {
+            *open += start;
+            Some(*open > 0)
+        })
+        .collect()
+}
+
+fn runs_between(changes: &[bool]) -> Vec<Range<usize>> {
+    let starts: Vec<usize> = (0..changes.len()).filter(|&k| k == 0 || changes[k]).collect();
+    let ends = starts.iter().skip(1).copied().chain([changes.len()]);
+    starts.iter().copied().zip(ends).map(|(start, end)| start..end).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::vec3;
+
+    /// A tetrahedron on a vertical stick: facets from z = 10 to 20 lean, those below stand.
+    fn mesh(top: f32) -> Mesh {
+        let ring = |z: f32, r: f32| [vec3(r, 0.0, z), vec3(-r, r, z), vec3(-r, -r, z)];
+        let vertices = [ring(0.0, 1.0), ring(10.0, 1.0), ring(20.0, top)].concat();
+        let side = |low: u32, i: u32| {
+            let (a, b) = (low + i, low + (i + 1) % 3);
+            [[a, b, b + 3], [a, b + 3, a + 3]]
+        };
+        let mut triangles = vec![[2, 1, 0], [6, 7, 8]];
+        triangles.extend((0..3).flat_map(|i| side(0, i)));
+        triangles.extend((0..3).flat_map(|i| side(3, i)));
+        Mesh { vertices, triangles }
+    }
+
+    #[test]
+    fn a_prism_is_one_run() {
+        let stack = LayerStack::new(&mesh(1.0), 0.01);
+        assert_eq!(stack.slice_z.len(), 2000);
+        // Vertices half-way up start a run of the same section.
+        assert_eq!(stack.runs, [0..1000, 1000..2000]);
+        assert_eq!((stack.run_of(999), stack.run_of(1000)), (0, 1));
+    }
+
+    #[test]
+    fn leaning_facets_change_every_layer() {
+        let stack = LayerStack::new(&mesh(3.0), 1.0);
+        assert_eq!(stack.runs[0], 0..10);
+        assert_eq!(stack.runs.len(), 11);
+    }
+
+    #[test]
+    fn a_part_that_hangs_below_zero_is_cut_from_its_own_bottom() {
+        let mut low = mesh(1.0);
+        low.vertices.iter_mut().for_each(|v| v.z -= 7.3);
+        let stack = LayerStack::new(&low, 0.2);
+        assert!((stack.slice_z[0] + 7.2).abs() < 1e-6);
+        assert_eq!(stack.slice_z.len(), 100);
+    }
+}

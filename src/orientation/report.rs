@@ -1,0 +1,132 @@
+//! The choice among directions, and the report that shows it.
+
+use serde::{Deserialize, Serialize};
+
+use super::evaluate::DirectionFigures;
+use super::net::{DIRECTIONS, Net, ScaledVolumes};
+use super::{OrientationError, OrientationOptions, exact};
+
+/// The directions with their figures, and the choice; the object `orientation` of a report.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct OrientationReport {
+    /// Height of the uniform layers that the figures were computed with, mm.
+    pub layer_height_mm: f64,
+    /// By id: the six axes, then sides of the convex hull.
+    pub directions: Vec<DirectionFigures>,
+    /// O_1 by the network: 1 for each of the six that it takes for a minimum.
+    pub o1: [u8; DIRECTIONS],
+    /// R by [Karim] eq. (13), from the exact minima.
+    pub r: [f64; DIRECTIONS],
+    /// O_2, one-hot: the first of the six with the largest R.
+    pub o2: [u8; DIRECTIONS],
+    /// O_1 by computation; it wins where the network differs.
+    pub exact: [u8; DIRECTIONS],
+    /// Id of the chosen direction.
+    pub chosen: u32,
+    /// What a person should know about the figures; part of the whole report's warnings.
+    #[serde(skip)]
+    pub remarks: Vec<Remark>,
+}
+
+/// Something a person should know about the choice.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Remark {
+    /// Fixed name of the remark.
+    pub code: &'static str,
+    /// A sentence for people.
+    pub message: String,
+}
+
+impl OrientationReport {
+    /// Whether the network and the exact rule give the same minima.
+    pub fn network_agrees(&self) -> bool {
+        self.o1 == self.exact
+    }
+
+    /// Figures of the chosen direction.
+    pub fn chosen_figures(&self) -> Option<&DirectionFigures> {
+        self.directions.iter().find(|d| d.id == self.chosen)
+    }
+}
+
+/// Chooses among evaluated directions, which may come in any order; all six axes must be there.
+pub fn choose(
+    figures: Vec<DirectionFigures>,
+    options: &OrientationOptions,
+) -> Result<OrientationReport, OrientationError> {
+    choose_with(&Net::stored(), figures, options)
+}
+
+/// [`choose`] with another network.
+fn choose_with(
+    net: &Net,
+    mut figures: Vec<DirectionFigures>,
+    options: &OrientationOptions,
+) -> Result<OrientationReport, OrientationError> {
+    figures.sort_by_key(|f| f.id);
+    let bad = |f: &&DirectionFigures| ![f.support_mm3, f.base_mm3, f.total_mm3].iter().all(|v| v.is_finite());
+    if let Some(found) = figures.iter().find(bad) {
+        return Err(OrientationError::BadFigures { id: found.id });
+    }
+    let six = first_six(&figures)?;
+    let volumes = six.map(|f| f.total_mm3);
+    if six.iter().all(|f| f.bed_contact_mm2 == 0.0 && f.total_mm3 == 0.0) {
+        return Err(OrientationError::NothingInside);
+    }
+    let scaled = ScaledVolumes::new(volumes).ok_or(OrientationError::BadFigures { id: 1 })?;
+    let (o1, exact) = (net.minima(&scaled), exact::minima(&volumes));
+    let r = exact::ratings(&exact, &six.map(|f| f.structures));
+    let o2 = exact::first_largest(&r);
+    let chosen = o2.iter().zip(1..).find(|(one, _)| **one == 1).map_or(1, |(_, id)| id);
+    mark_pareto(&mut figures);
+    let remarks = remarks(&figures, o1, exact);
+    let layer_height_mm = options.layer_height;
+    Ok(OrientationReport { layer_height_mm, directions: figures, o1, r, o2, exact, chosen, remarks })
+}
+
+/// Figures of ids 1 to 6, from figures sorted by id.
+fn first_six(figures: &[DirectionFigures]) -> Result<[DirectionFigures; DIRECTIONS], OrientationError> {
+    let missing = |id: u32| OrientationError::BadFigures { id };
+    for (i, id) in (1..=DIRECTIONS as u32).enumerate() {
+        if figures.get(i).is_none_or(|f| f.id != id) {
+            return Err(missing(id));
+        }
+    }
+    Ok(std::array::from_fn(|i| figures[i]))
+}
+
+/// Marks the directions that no other one beats in volume, structures and height together.
+fn mark_pareto(figures: &mut [DirectionFigures]) {
+    let costs: Vec<[f64; 3]> =
+        figures.iter().map(|f| [f.total_mm3, f64::from(f.structures), f.height_mm]).collect();
+    let beats = |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).all(|(x, y)| x <= y) && a != b;
+    for (figure, own) in figures.iter_mut().zip(&costs) {
+        figure.pareto = !costs.iter().any(|other| beats(other, own));
+    }
+}
+
+fn remarks(figures: &[DirectionFigures], o1: [u8; DIRECTIONS], exact: [u8; DIRECTIONS]) -> Vec<Remark> {
+    let mut found = Vec::new();
+    if o1 != exact {
+        let message = format!(
+            "the network takes {} for the minimum, the exact comparison {}; the exact one is used",
+            ids(&o1),
+            ids(&exact)
+        );
+        found.push(Remark { code: "orientation_network_differs", message });
+    }
+    let open = figures.iter().map(|f| f.open_layers).max().unwrap_or(0);
+    if open > 0 {
+        let message = format!("the model is open: up to {open} layers were closed to compare directions");
+        found.push(Remark { code: "orientation_open_mesh", message });
+    }
+    found
+}
+
+/// "1 and 5" or "none".
+fn ids(minima: &[u8; DIRECTIONS]) -> String {
+    let ids = minima.iter().zip(1..).filter(|(one, _)| **one == 1).map(|(_, id): (_, u32)| id.to_string());
+    let ids: Vec<String> = ids.collect();
+    if ids.is_empty() { "none".to_owned() } else { ids.join(" and ") }
+}

@@ -1,0 +1,119 @@
+//! How much of the part's surface supports touch from below and from above.
+
+use glam::DVec3;
+
+use super::layers::LayerStack;
+use crate::mesh::Mesh;
+use crate::polygon::{DVec2, PolygonSet, dvec2};
+
+/// Facets are looked at in patches of about this area, mm2, each touched wholly or not at all.
+const PATCH_MM2: f64 = 1.0;
+
+/// At most this many patches along a facet's side, so that huge facets stay cheap.
+const MOST_PATCHES: f64 = 32.0;
+
+/// A patch of the surface that a support may touch.
+#[derive(Debug, Clone, Copy)]
+struct Patch {
+    run: u32,
+    at: DVec2,
+    area_mm2: f64,
+}
+
+/// The patches of a turned mesh, by the run of layers whose support could touch them.
+#[derive(Debug)]
+pub(super) struct Scars {
+    /// Sorted by run, ascending.
+    patches: Vec<Patch>,
+    touched_mm2: f64,
+}
+
+impl Scars {
+    /// Facets that look down are touched by the support of the layer below them, those that look
+    /// up by that of the layer above. Vertical walls are not: supports keep a distance sideways.
+    pub(super) fn new(mesh: &Mesh, stack: &LayerStack) -> Scars {
+        let mut patches = Vec::new();
+        for t in 0..mesh.triangles.len() {
+            let corners = mesh.corners(t).map(|v| v.as_dvec3());
+            let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+            if normal.z != 0.0 {
+                add_facet(corners, normal, stack, &mut patches);
+            }
+        }
+        patches.sort_by_key(|patch| patch.run);
+        Scars { patches, touched_mm2: 0.0 }
+    }
+
+    /// Looks at the patches of a run, of which `supports` is the support region. Runs come from
+    /// the top down.
+    pub(super) fn look(&mut self, run: usize, supports: &PolygonSet) {
+        let below = self.patches.partition_point(|patch| (patch.run as usize) < run);
+        let patches = self.patches.split_off(below);
+        if patches.is_empty() || supports.is_empty() {
+            return;
+        }
+        let strips = Strips::new(supports);
+        let touched = patches.iter().filter(|patch| strips.contain(patch.at));
+        self.touched_mm2 += touched.map(|patch| patch.area_mm2).sum::<f64>();
+    }
+
+    /// Surface touched so far, mm2.
+    pub(super) fn touched_mm2(&self) -> f64 {
+        self.touched_mm2
+    }
+}
+
+/// The edges of an area sorted into level strips, for many questions whether a point is inside.
+struct Strips {
+    low: f64,
+    per_mm: f64,
+    edges: Vec<Vec<(DVec2, DVec2)>>,
+}
+
+impl Strips {
+    fn new(area: &PolygonSet) -> Strips {
+        let (low, height) = area.bounds().map_or((0.0, 0.0), |b| (b.min.y, b.size().y));
+        let count = (area.vertex_count() / 4).clamp(1, 512);
+        let mut strips =
+            Strips { low, per_mm: count as f64 / height.max(1e-3), edges: vec![Vec::new(); count] };
+        for (a, b) in area.contours().iter().flat_map(|c| c.edges()) {
+            for strip in strips.of(a.y.min(b.y))..=strips.of(a.y.max(b.y)) {
+                strips.edges[strip].push((a, b));
+            }
+        }
+        strips
+    }
+
+    fn of(&self, y: f64) -> usize {
+        (((y - self.low) * self.per_mm) as usize).min(self.edges.len() - 1)
+    }
+
+    fn contain(&self, p: DVec2) -> bool {
+        let crosses = |&&(a, b): &&(DVec2, DVec2)| {
+            (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) * (b.x - a.x) / (b.y - a.y)
+        };
+        self.edges[self.of(p.y)].iter().filter(crosses).count() % 2 == 1
+    }
+}
+
+fn add_facet(corners: [DVec3; 3], normal: DVec3, stack: &LayerStack, patches: &mut Vec<Patch>) {
+    let area = normal.length() / 2.0;
+    let n = (area / PATCH_MM2).sqrt().ceil().clamp(1.0, MOST_PATCHES) as usize;
+    let [a, along, across] = [corners[0], corners[1] - corners[0], corners[2] - corners[0]];
+    let middle = |i: usize, j: usize, third: f64| {
+        a + along * ((i as f64 + third) / n as f64) + across * ((j as f64 + third) / n as f64)
+    };
+    // n rows of triangles pointing one way, and n - 1 of those between them.
+    let upright = (0..n).flat_map(|i| (0..n - i).map(move |j| (i, j, 1.0 / 3.0)));
+    let between = (1..n).flat_map(|i| (0..n - i).map(move |j| (i - 1, j, 2.0 / 3.0)));
+    for (i, j, third) in upright.chain(between) {
+        let at = middle(i, j, third);
+        // The first plane above the patch.
+        let above = stack.slice_z.partition_point(|&h| h <= at.z);
+        let layer = if normal.z < 0.0 { above.checked_sub(1) } else { Some(above) };
+        if let Some(layer) = layer.filter(|&layer| layer < stack.slice_z.len()) {
+            let run = stack.run_of(layer) as u32;
+            patches.push(Patch { run, at: dvec2(at.x, at.y), area_mm2: area / (n * n) as f64 });
+        }
+    }
+}

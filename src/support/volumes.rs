@@ -1,0 +1,290 @@
+//! Support regions from the top down, their volume and the structures they form.
+//!
+//! Source: [Karim] equations (9) to (12). A_k is the part's section in layer k, S_k the support
+//! region, both seen from above; layers are counted from the bed.
+
+use crate::polygon::{Contour, DVec2, PolygonSet};
+use crate::region::overhang::{self, Island};
+
+/// Slits and slivers of a support region that are thinner than this, mm, are rounding artefacts of
+/// borders that ran along each other: three grid steps.
+const THIN_MM: f64 = 3e-4;
+
+/// Dents in the border of a support region that are shallower than this share of the layer height
+/// are filled: they cost time in every layer below and hold next to nothing.
+const DENT_SHARE: f64 = 0.025;
+
+/// At most this many neighbouring points go with one dent.
+const DENT_POINTS: usize = 32;
+
+/// What the descent needs to know about the print.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VolumeRules {
+    /// Height t of every layer, mm.
+    pub layer_height: f64,
+    /// Self-support angle alpha, degrees from the vertical.
+    pub self_support_angle_deg: f64,
+    /// Layers m of the base below part and supports.
+    pub base_layers: u32,
+    /// Structures whose largest layer is under the square of this (a line's width, mm) are specks.
+    pub speck_width: f64,
+}
+
+/// What supports cost.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SupportVolumes {
+    /// Sum of area(S_k) t, mm3.
+    pub support_mm3: f64,
+    /// m t area(S_1 u A_1), mm3.
+    pub base_mm3: f64,
+    /// Connected supports larger than a speck, plus one for the base.
+    pub structures: u32,
+    /// Connected supports of which no layer is as large as a line is wide.
+    pub specks: u32,
+    /// area(A_1), mm2: what of the part itself stands on the bed.
+    pub bed_contact_mm2: f64,
+}
+
+/// A walk over the layers from the top down.
+///
+/// Equal neighbouring layers come as one step and cost next to nothing, however many there are.
+#[derive(Debug)]
+pub struct Descent {
+    rules: VolumeRules,
+    step: f64,
+    /// A_k of the layer entered last.
+    area: PolygonSet,
+    /// S_k of the layer entered last, and its components.
+    region: PolygonSet,
+    parts: Vec<Part>,
+    structures: Structures,
+    support_mm3: f64,
+}
+
+/// A component of S_k and the structure it belongs to.
+#[derive(Debug)]
+struct Part {
+    island: Island,
+    node: usize,
+}
+
+impl Descent {
+    /// Above the topmost layer.
+    pub fn new(rules: VolumeRules) -> Self {
+        let step = overhang::permissible_step(rules.layer_height, rules.self_support_angle_deg);
+        Descent {
+            rules,
+            step,
+            area: PolygonSet::EMPTY,
+            region: PolygonSet::EMPTY,
+            parts: Vec::new(),
+            structures: Structures::default(),
+            support_mm3: 0.0,
+        }
+    }
+
+    /// Goes down by `layers` layers of one section and finds their support region,
+    /// S_k = (S_(k+1) u ESF_k) - A_k.
+    ///
+    /// *Erratum*: [Karim] eq. (9) writes RA for ESF and looks one layer up only; this is what its
+    /// figures do.
+    pub fn enter(&mut self, area: PolygonSet, layers: u32) {
+        if area != self.area {
+            let esf = overhang::externally_supported(&self.area, &area, self.step);
+            let carried = self.region.difference(&area);
+            if !esf.is_empty() || carried != self.region {
+                self.replace_region(carried, &esf);
+            }
+            self.area = area;
+        }
+        self.support_mm3 += self.region.area() * self.rules.layer_height * f64::from(layers);
+    }
+
+    /// Sets S_k = `carried` u `esf` and joins its components to the structures above.
+    ///
+    /// `esf` lies below the part and S_(k+1) does not, so `carried` is all that S_k and S_(k+1)
+    /// share: a piece of it ties the component above that it came from to the one it lies in now.
+    fn replace_region(&mut self, carried: PolygonSet, esf: &PolygonSet) {
+        let region = self.without_dents(carried.union(esf));
+        let islands = Island::all_of(&region);
+        let parts: Vec<Part> =
+            islands.into_iter().map(|island| Part { node: self.structures.add(&island), island }).collect();
+        if let ([above], [below], false) = (&self.parts[..], &parts[..], carried.is_empty()) {
+            self.structures.join(above.node, below.node);
+        } else {
+            for piece in carried.islands() {
+                let point = overhang::inner_point(&piece);
+                let holder = |parts: &[Part]| {
+                    parts.iter().find(|part| point.is_some_and(|p| part.island.contains(p))).map(|p| p.node)
+                };
+                if let (Some(above), Some(below)) = (holder(&self.parts), holder(&parts)) {
+                    self.structures.join(above, below);
+                }
+            }
+        }
+        (self.region, self.parts) = (region, parts);
+    }
+
+    /// The region without slits and slivers, shallow dents filled.
+    fn without_dents(&self, region: PolygonSet) -> PolygonSet {
+        let depth = DENT_SHARE * self.rules.layer_height;
+        let thin = |c: &Contour| 2.0 * c.signed_area().abs() < THIN_MM * c.length();
+        let kept = region.into_contours().into_iter().filter(|c| !thin(c));
+        PolygonSet::canonical(kept.map(|c| fill_dents(&c, depth)).collect())
+    }
+
+    /// S_k of the layer entered last.
+    pub fn region(&self) -> &PolygonSet {
+        &self.region
+    }
+
+    /// The figures, once the layer on the bed has been entered.
+    pub fn finish(self) -> SupportVolumes {
+        let rules = self.rules;
+        let base_mm2 = self.region.union(&self.area).area();
+        let (large, specks) = self.structures.count(rules.speck_width * rules.speck_width);
+        SupportVolumes {
+            support_mm3: self.support_mm3,
+            base_mm3: f64::from(rules.base_layers) * rules.layer_height * base_mm2,
+            structures: large + 1,
+            specks,
+            bed_contact_mm2: self.area.area(),
+        }
+    }
+}
+
+/// Drops runs of points that lie to the left of the line past them, where the area is, by at most
+/// `depth` mm. The area only grows, so no gap opens towards what the next layer adds beside it.
+fn fill_dents(contour: &Contour, depth: f64) -> Contour {
+    let points = &contour.points;
+    let mut kept: Vec<DVec2> = Vec::with_capacity(points.len());
+    let mut at = 0;
+    while at < points.len() {
+        kept.push(points[at]);
+        let reach = (at + 2..points.len().min(at + DENT_POINTS))
+            .take_while(|&end| is_dent(points[at], &points[at + 1..end], points[end], depth));
+        at = reach.last().unwrap_or(at + 1);
+    }
+    if kept.len() < 3 { contour.clone() } else { Contour::new(kept) }
+}
+
+fn is_dent(from: DVec2, between: &[DVec2], to: DVec2, depth: f64) -> bool {
+    let along = to - from;
+    let length = along.length();
+    between.iter().all(|&p| (0.0..=depth * length).contains(&along.perp_dot(p - from)))
+}
+
+/// Union-find over the components of all layers; a set is one support structure.
+#[derive(Debug, Default)]
+struct Structures {
+    parent: Vec<usize>,
+    /// Of the root: the largest component of its set, mm2.
+    largest_mm2: Vec<f64>,
+}
+
+impl Structures {
+    fn add(&mut self, island: &Island) -> usize {
+        self.parent.push(self.parent.len());
+        self.largest_mm2.push(island.polygon.area());
+        self.parent.len() - 1
+    }
+
+    fn root(&mut self, mut node: usize) -> usize {
+        while self.parent[node] != node {
+            self.parent[node] = self.parent[self.parent[node]];
+            node = self.parent[node];
+        }
+        node
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.root(a), self.root(b));
+        let (first, second) = (a.min(b), a.max(b));
+        self.parent[second] = first;
+        self.largest_mm2[first] = self.largest_mm2[first].max(self.largest_mm2[second]);
+    }
+
+    /// How many sets reach `speck_mm2` in some layer, and how many do not.
+    fn count(&self, speck_mm2: f64) -> (u32, u32) {
+        let roots = (0..self.parent.len()).filter(|&i| self.parent[i] == i);
+        roots.fold((0, 0), |(large, specks), i| {
+            if self.largest_mm2[i] < speck_mm2 { (large, specks + 1) } else { (large + 1, specks) }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::polygon::dvec2;
+
+    const RULES: VolumeRules =
+        VolumeRules { layer_height: 0.5, self_support_angle_deg: 45.0, base_layers: 5, speck_width: 0.45 };
+
+    fn rectangle(x0: f64, y0: f64, x1: f64, y1: f64) -> PolygonSet {
+        PolygonSet::rectangle(dvec2(x0, y0), dvec2(x1, y1))
+    }
+
+    /// Layers from the top down, as (section, number of layers).
+    fn descend(layers: &[(PolygonSet, u32)]) -> SupportVolumes {
+        let mut descent = Descent::new(RULES);
+        layers.iter().for_each(|(area, count)| descent.enter(area.clone(), *count));
+        descent.finish()
+    }
+
+    #[test]
+    fn a_t_is_held_down_to_the_bed() {
+        // Erratum of eq. (9): looking one layer up only, support would end one layer below the top.
+        let found = descend(&[(rectangle(0.0, 0.0, 30.0, 10.0), 4), (rectangle(10.0, 0.0, 20.0, 10.0), 60)]);
+        assert!((found.support_mm3 - 20.0 * 10.0 * 30.0).abs() < 1e-9);
+        assert!((found.base_mm3 - 5.0 * 0.5 * 300.0).abs() < 1e-9);
+        assert_eq!((found.structures, found.specks), (3, 0));
+        assert_eq!(found.bed_contact_mm2, 100.0);
+    }
+
+    #[test]
+    fn support_stands_on_the_part_below_it() {
+        let foot = rectangle(0.0, 0.0, 30.0, 10.0);
+        let found = descend(&[
+            (rectangle(0.0, 0.0, 30.0, 10.0), 4),
+            (rectangle(10.0, 0.0, 20.0, 10.0), 8),
+            (foot, 2),
+        ]);
+        assert!((found.support_mm3 - 20.0 * 10.0 * 4.0).abs() < 1e-9);
+        assert_eq!(found.structures, 3);
+    }
+
+    #[test]
+    fn two_supports_that_meet_further_down_are_one_structure() {
+        let wall = rectangle(14.0, 0.0, 16.0, 10.0);
+        let top = rectangle(0.0, 0.0, 30.0, 10.0);
+        // The wall hangs in the air, so that the supports beside it and under it are one.
+        let foot = rectangle(0.0, 0.0, 1.0, 10.0);
+        let found = descend(&[(top, 4), (wall.union(&foot), 8), (foot, 8)]);
+        assert_eq!(found.structures, 2);
+    }
+
+    #[test]
+    fn one_support_split_by_the_part_stays_one() {
+        let top = rectangle(0.0, 0.0, 30.0, 10.0);
+        let foot = rectangle(0.0, 0.0, 1.0, 10.0);
+        let ridge = foot.union(&rectangle(14.0, 0.0, 16.0, 10.0));
+        let found = descend(&[(top, 4), (foot, 8), (ridge, 8)]);
+        assert_eq!(found.structures, 2);
+    }
+
+    #[test]
+    fn tiny_structures_are_counted_apart() {
+        let tip = rectangle(20.0, 5.0, 20.3, 5.3);
+        let body = rectangle(0.0, 0.0, 10.0, 10.0);
+        let found = descend(&[(body.union(&tip), 2), (body, 10)]);
+        assert_eq!((found.structures, found.specks), (1, 1));
+        assert!((found.support_mm3 - 0.09 * 5.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn nothing_in_nothing_out() {
+        let found = Descent::new(RULES).finish();
+        assert_eq!((found.support_mm3, found.base_mm3, found.structures), (0.0, 0.0, 1));
+    }
+}
