@@ -103,7 +103,8 @@ fn a_face_in_the_plane_is_neither_missed_nor_doubled() {
     let area = |z: f64| only(slice_mesh(&steps, Axis::Z, &[z], 0.0)).area.area();
     assert_eq!((area(0.0), area(5.0), area(2.5)), (0.0, 100.0, 100.0));
     let l = bracket(20.0, 5.0, 8.0);
-    let areas: Vec<f64> = slice_mesh(&l, Axis::Z, &[5.0, 5.0 + 1e-9], 0.0).iter().map(|s| s.area.area()).collect();
+    let areas: Vec<f64> =
+        slice_mesh(&l, Axis::Z, &[5.0, 5.0 + 1e-9], 0.0).iter().map(|s| s.area.area()).collect();
     assert_eq!(areas, [160.0, 40.0]);
 }
 
