@@ -196,8 +196,9 @@ struct Open<'a> {
     stalled: usize,
 }
 
-/// Adds planes until everything is held or nothing more can be done.
-pub(super) fn add_planes(job: &Job, needs: &[Need], plates: &mut Vec<Plate>) {
+/// Adds planes until everything is held or nothing more can be done: along the room at a spot, or
+/// `across` it.
+pub(super) fn add_planes(job: &Job, needs: &[Need], plates: &mut Vec<Plate>, across: bool) {
     let reach = reach(job);
     let mut open: Vec<Open> =
         needs.iter().map(|need| Open { need, area: f64::INFINITY, stalled: 0 }).collect();
@@ -210,7 +211,7 @@ pub(super) fn add_planes(job: &Job, needs: &[Need], plates: &mut Vec<Plate>) {
             one.area = area;
             let goes_on = area > 0.0 && one.stalled < 2;
             if goes_on {
-                let turned = one.stalled == 1;
+                let turned = (one.stalled == 1) != across;
                 requests.extend(spots.iter().filter_map(|spot| request(job, one.need, spot, turned)));
             }
             goes_on

@@ -162,8 +162,11 @@ impl Job<'_> {
         let needs = cover::needs(self);
         step(3)?;
         let first = pieces::sort_out(&self.frame, &mut plates);
-        cover::add_planes(self, &needs, &mut plates);
-        let sorted = self.brace(&mut plates);
+        cover::add_planes(self, &needs, &mut plates, false);
+        let braced = self.brace(&mut plates);
+        // What was added may stand on nothing; the other direction may do better.
+        cover::add_planes(self, &needs, &mut plates, true);
+        let sorted = pieces::sort_out(&self.frame, &mut plates);
         step(4)?;
         let (layers, volume_mm3) = beads::assemble(self, &needs, &plates);
         let report = SupportReport {
@@ -171,7 +174,7 @@ impl Job<'_> {
             volume_mm3,
             complete_volume_mm3: self.complete_volume(),
             pieces: sorted.pieces,
-            dropped: first.dropped + sorted.dropped,
+            dropped: first.dropped + braced.dropped + sorted.dropped,
             planes_added: plates.iter().filter(|p| p.is_added).count(),
             uncovered: cover::report_uncovered(self, &needs, &plates),
             plates: plates.iter().filter_map(report::of_plate).collect(),
@@ -234,6 +237,7 @@ impl Job<'_> {
         let area = |(section, _): &(PlaneSection, Vec<Gap>)| -> f64 {
             section.columns(demand(self.options, false)).iter().map(Column::area).sum()
         };
-        self.sections(Axis::X, &places).iter().map(area).sum::<f64>() * (high - low) / count
+        // `+ 0.0`: the sum of nothing is -0.0.
+        self.sections(Axis::X, &places).iter().map(area).sum::<f64>() * (high - low) / count + 0.0
     }
 }
