@@ -201,6 +201,20 @@ fn a_peg_between_the_planes_gets_planes_of_its_own() {
 }
 
 #[test]
+fn a_grid_holds_the_t_shape_too() {
+    let grid = SupportOptions { method: SupportMethod::Grid, ..plates() };
+    let report = sliced(t_shape()).supports(&grid).report().clone();
+    // [Karim]: all below the two overhangs, 2 x 15 x 20 x 30.
+    assert!((report.complete_volume_mm3 - 18000.0).abs() < 1.0, "{}", report.complete_volume_mm3);
+    assert_eq!((report.pieces, report.planes_added, report.uncovered.len()), (2, 0, 0));
+    // Lines every 2.5 mm instead of every 4.
+    let plates = sliced(t_shape()).supports(&plates()).report().volume_mm3;
+    assert!(report.volume_mm3 > 1.3 * plates, "{} against {plates}", report.volume_mm3);
+    let bed = SupportOptions { blockers: vec![[-1.0, -1.0, 0.0, 41.0, 21.0, 40.0]], ..grid };
+    assert_eq!(sliced(t_shape()).supports(&bed).report().volume_mm3, 0.0);
+}
+
+#[test]
 fn boxes_decide() {
     let part = sliced(t_shape());
     let left = [-1.0, -1.0, 0.0, 16.0, 21.0, 40.0];

@@ -50,7 +50,7 @@ struct Request {
 /// the bed holds them.
 pub(super) fn needs(job: &Job) -> Vec<Need> {
     let flat = flat_layers(job);
-    let closed = closed_cavities(job, &flat);
+    let closed = closed_cavities(job);
     let need_at = |k: usize| {
         let (frame, options) = (&job.frame, job.options);
         let top = frame.top_under(k)?;
@@ -105,9 +105,9 @@ fn flat_layers(job: &Job) -> Vec<bool> {
     flat
 }
 
-/// Sections of the air in cavities closed in 3D, of those layers that may need something.
-fn closed_cavities(job: &Job, flat: &[bool]) -> Vec<PolygonSet> {
-    let mut closed = vec![PolygonSet::EMPTY; flat.len()];
+/// Sections of the air in cavities closed in 3D that are to stay empty, layer by layer.
+pub(super) fn closed_cavities(job: &Job) -> Vec<PolygonSet> {
+    let mut closed = vec![PolygonSet::EMPTY; job.frame.layers.len()];
     if job.facets.is_cavity.is_empty() || job.options.internal {
         return closed;
     }
@@ -122,7 +122,7 @@ fn closed_cavities(job: &Job, flat: &[bool]) -> Vec<PolygonSet> {
 }
 
 /// The boxes that reach into the heights between two layers, in plan.
-fn boxes_at(boxes: &[[f64; 6]], low: f64, high: f64) -> Vec<PolygonSet> {
+pub(super) fn boxes_at(boxes: &[[f64; 6]], low: f64, high: f64) -> Vec<PolygonSet> {
     let met = boxes.iter().map(ordered).filter(|[min, max]| min[2] <= high && low <= max[2]);
     met.map(|[min, max]| PolygonSet::rectangle(dvec2(min[0], min[1]), dvec2(max[0], max[1]))).collect()
 }

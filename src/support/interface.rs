@@ -72,25 +72,36 @@ pub(super) fn lay(
 /// Level lines of an area, a bead's width apart, at whole multiples of it.
 fn scan(area: &PolygonSet, axis: Axis, width: f64) -> Vec<(f64, Vec<Span>)> {
     let Some(bounds) = area.bounds() else { return Vec::new() };
-    let turn = |p: DVec2| if axis == Axis::X { p } else { dvec2(p.y, p.x) };
-    let (low, high) = (turn(bounds.min).x, turn(bounds.max).x);
+    let (low, high) = (turned(axis, bounds.min).x, turned(axis, bounds.max).x);
     let first = (low / width).ceil();
     let count = ((high / width).floor() - first + 1.0).max(0.0) as usize;
-    let mut hits: Vec<(f64, Vec<f64>)> =
-        (0..count).map(|i| ((first + i as f64) * width, Vec::new())).collect();
+    let places: Vec<f64> = (0..count).map(|i| (first + i as f64) * width).collect();
+    let lines = level_lines(area, axis, &places);
+    places.into_iter().zip(lines).collect()
+}
+
+/// The stretches of the lines `axis = places[i]`, ascending, that lie in an area.
+pub(super) fn level_lines(area: &PolygonSet, axis: Axis, places: &[f64]) -> Vec<Vec<Span>> {
+    let mut hits: Vec<Vec<f64>> = vec![Vec::new(); places.len()];
     for (a, b) in area.contours().iter().flat_map(|c| c.edges()) {
-        let (a, b) = (turn(a), turn(b));
+        let (a, b) = (turned(axis, a), turned(axis, b));
         let (from, to) = (a.x.min(b.x), a.x.max(b.x));
-        let start = hits.partition_point(|h| h.0 < from);
-        for (at, hit) in hits[start..].iter_mut().take_while(|h| h.0 < to) {
-            hit.push(a.y + (*at - a.x) * (b.y - a.y) / (b.x - a.x));
+        let first = places.partition_point(|&at| at < from);
+        let met = places[first..].iter().zip(&mut hits[first..]).take_while(|(at, _)| **at < to);
+        for (at, hit) in met {
+            hit.push(a.y + (at - a.x) * (b.y - a.y) / (b.x - a.x));
         }
     }
-    let pair = |(at, mut hit): (f64, Vec<f64>)| {
+    let pair = |mut hit: Vec<f64>| -> Vec<Span> {
         hit.sort_by(f64::total_cmp);
-        (at, hit.chunks_exact(2).map(|c| [c[0], c[1]]).collect())
+        hit.chunks_exact(2).map(|c| [c[0], c[1]]).filter(|s| s[0] < s[1]).collect()
     };
     hits.into_iter().map(pair).collect()
+}
+
+/// A point as (across the planes, along them).
+fn turned(axis: Axis, p: DVec2) -> DVec2 {
+    if axis == Axis::X { p } else { dvec2(p.y, p.x) }
 }
 
 /// Takes out of `lines` what comes within a width of the crossing `others`.

@@ -11,6 +11,7 @@ mod beads;
 mod cover;
 mod error;
 mod frame;
+mod grid;
 mod interface;
 pub mod options;
 mod pieces;
@@ -24,7 +25,7 @@ pub mod volumes;
 
 pub use beads::Bead;
 pub use error::{SupportError, SupportWarning};
-pub use options::{PlateOptions, SupportMethod, SupportOptions};
+pub use options::{GridOptions, PlateOptions, SupportMethod, SupportOptions};
 pub use report::{PlateAxis, PlateReport, SupportReport, Uncovered};
 
 use crate::mesh::{Box3, Mesh};
@@ -32,6 +33,7 @@ use crate::options::Checked;
 use crate::polygon::PolygonSet;
 use crate::region::Path;
 use crate::slice::{Axis, Gap, LayerSpec};
+use cover::Need;
 use frame::Frame;
 use plane::{Column, Demand, PlaneSection};
 use plates::Plate;
@@ -90,7 +92,12 @@ pub fn check_options(options: &SupportOptions) -> Result<(), SupportError> {
     options.check("support")?;
     let PlateOptions { spacing_x, spacing_y, thickness } = options.plates;
     let least = options.line_width * f64::from(thickness);
-    for (path, found) in [("support.plates.spacing_x", spacing_x), ("support.plates.spacing_y", spacing_y)] {
+    let spacings = [
+        ("support.plates.spacing_x", spacing_x, least),
+        ("support.plates.spacing_y", spacing_y, least),
+        ("support.grid.spacing", options.grid.spacing, options.line_width),
+    ];
+    for (path, found, least) in spacings {
         if found < least {
             return Err(SupportError::SpacingUnderThickness { path, found, least });
         }
@@ -155,26 +162,27 @@ impl Job<'_> {
         let mut step = |done: u32| if watch(done, STEPS) { Ok(()) } else { Err(SupportError::Cancelled) };
         step(0)?;
         let mut warnings = Vec::new();
-        let mut plates = self.regular_plates(&mut warnings);
+        let adds_planes = self.options.method == SupportMethod::Plates;
+        let (mut plates, complete_volume_mm3) = match self.options.method {
+            SupportMethod::None => (Vec::new(), 0.0),
+            SupportMethod::Plates => (self.regular_plates(&mut warnings), self.complete_volume()),
+            SupportMethod::Grid => grid::plates(self),
+        };
         step(1)?;
         plates::lay(&self.frame, &mut plates, |_| true);
         step(2)?;
         let needs = cover::needs(self);
         step(3)?;
         let first = pieces::sort_out(&self.frame, &mut plates);
-        cover::add_planes(self, &needs, &mut plates, false);
-        let braced = self.brace(&mut plates);
-        // What was added may stand on nothing; the other direction may do better.
-        cover::add_planes(self, &needs, &mut plates, true);
-        let sorted = pieces::sort_out(&self.frame, &mut plates);
+        let sorted = if adds_planes { self.complete(&needs, &mut plates, first) } else { first };
         step(4)?;
         let (layers, volume_mm3) = beads::assemble(self, &needs, &plates);
         let report = SupportReport {
             method: self.options.method,
             volume_mm3,
-            complete_volume_mm3: self.complete_volume(),
+            complete_volume_mm3,
             pieces: sorted.pieces,
-            dropped: first.dropped + braced.dropped + sorted.dropped,
+            dropped: sorted.dropped,
             planes_added: plates.iter().filter(|p| p.is_added).count(),
             uncovered: cover::report_uncovered(self, &needs, &plates),
             plates: plates.iter().filter_map(report::of_plate).collect(),
@@ -192,7 +200,11 @@ impl Job<'_> {
 
     fn spacing(&self, axis: Axis) -> f64 {
         let plates = &self.options.plates;
-        if axis == Axis::X { plates.spacing_x } else { plates.spacing_y }
+        match (self.options.method, axis) {
+            (SupportMethod::Grid, _) => self.options.grid.spacing,
+            (_, Axis::X) => plates.spacing_x,
+            (_, Axis::Y | Axis::Z) => plates.spacing_y,
+        }
     }
 
     fn sections(&self, axis: Axis, places: &[f64]) -> Vec<(PlaneSection, Vec<Gap>)> {
@@ -213,6 +225,16 @@ impl Job<'_> {
             }
         }
         plates
+    }
+
+    /// Adds planes for what hangs and for what may buckle.
+    fn complete(&self, needs: &[Need], plates: &mut Vec<Plate>, first: pieces::Sorted) -> pieces::Sorted {
+        cover::add_planes(self, needs, plates, false);
+        let braced = self.brace(plates);
+        // What was added may stand on nothing; the other direction may do better.
+        cover::add_planes(self, needs, plates, true);
+        let last = pieces::sort_out(&self.frame, plates);
+        pieces::Sorted { dropped: first.dropped + braced.dropped + last.dropped, ..last }
     }
 
     /// Gives lonely towers a crossing plate; drops what stands on nothing.

@@ -12,6 +12,8 @@ pub enum SupportMethod {
     None,
     /// Thin crossing plates [Zhao].
     Plates,
+    /// A plain grid below everything that hangs, to compare with.
+    Grid,
 }
 
 crate::options! {
@@ -38,6 +40,8 @@ crate::options! {
         line_width: f64 = 0.4, "Line width", "mm", 0.1..=2.0;
         /// Thin crossing plates.
         plates: group PlateOptions;
+        /// A plain grid.
+        grid: group GridOptions;
         /// Boxes [x0, y0, z0, x1, y1, z1], mm on the bed, in which every downward surface is held.
         enforcers: Vec<[f64; 6]> = Vec::new(), "Boxes with supports";
         /// Boxes [x0, y0, z0, x1, y1, z1], mm on the bed, in which nothing is held; they win.
@@ -54,5 +58,13 @@ crate::options! {
         spacing_y: f64 = 4.0, "Spacing along y", "mm", 0.1..=100.0;
         /// Lines side by side in a plate.
         thickness: u32 = 1, "Thickness in lines", "", 1.0..=3.0;
+    }
+}
+
+crate::options! {
+    /// A plain grid of lines.
+    pub struct GridOptions {
+        /// Distance between lines; at least a line's width.
+        spacing: f64 = 2.5, "Spacing", "mm", 0.1..=100.0;
     }
 }
