@@ -11,6 +11,7 @@ use crate::orientation::OrientationOptions;
 use crate::region::first_layer::FirstLayerOptions;
 use crate::region::shell::SkinOptions;
 use crate::slice::LayerOptions;
+use crate::support::SupportOptions;
 use crate::toolpath::infill::InfillOptions;
 use crate::toolpath::seam::SeamOptions;
 use crate::toolpath::walls::WallOptions;
@@ -38,6 +39,8 @@ crate::options! {
         orientation: group OrientationOptions;
         /// What holds the part on the bed.
         adhesion: group AdhesionOptions;
+        /// What holds overhangs.
+        support: group SupportOptions;
         /// Speeds by role.
         speed: group SpeedOptions;
         /// Pulling the filament back for travels.

@@ -68,6 +68,8 @@ fn ranges_and_shares_give_the_bytes_of_the_whole() {
         assert_same_bytes(&part, &[&format!("adhesion.kind={kind}")]);
     }
     assert_same_bytes(&part, &["skin.top_layers=0", "skin.bottom_layers=0", "infill.pattern=lines"]);
+    assert_same_bytes(&part, &["support.method=plates"]);
+    assert_same_bytes(&part, &["support.method=grid", "adhesion.kind=raft"]);
     assert_same_bytes(&part, &["infill.density=1", "walls.count=1", "skin.top_layers=9"]);
 }
 

@@ -4,11 +4,12 @@ use super::report::AdhesionReport;
 use super::{Clock, Job, JobError};
 use crate::adhesion::{AdhesionKind, AdhesionOptions, Foundation};
 use crate::gcode::{LayerInput, layer_gcode};
+use crate::polygon::PolygonSet;
 use crate::region::Path;
 
 impl Job {
     /// Skirt, brim, raft and teeth beside each other, whatever the settings ask for: material, time,
-    /// bed contact and attachment of each.
+    /// bed contact and attachment of each, for the part without supports.
     pub fn compare(&self, clock: Clock) -> Result<Vec<AdhesionReport>, JobError> {
         AdhesionKind::ALL.into_iter().map(|kind| self.try_kind(kind, clock)).collect()
     }
@@ -16,7 +17,7 @@ impl Job {
     fn try_kind(&self, kind: AdhesionKind, clock: Clock) -> Result<AdhesionReport, JobError> {
         let options = AdhesionOptions { kind, ..self.settings.adhesion.clone() };
         let started = clock();
-        let foundation = self.lay_foundation(&options)?;
+        let foundation = self.lay_foundation(&options, &PolygonSet::EMPTY)?;
         let report = AdhesionReport::new(kind, &foundation.figures, clock() - started);
         Ok(AdhesionReport { time_s: self.time_of(&foundation), ..report })
     }

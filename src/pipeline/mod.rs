@@ -18,7 +18,7 @@ pub use place::{FitError, Placed, place_on_bed};
 pub use range::{PRINT_RESOLUTION, RangeMeta, RangePlan, RangeResult, Share};
 use turn::turn_models;
 
-pub use report::{AdhesionReport, FilamentReport, ModelReport, Report, Timing, Warning};
+pub use report::{AdhesionReport, FilamentReport, ModelReport, Report, SupportReport, Timing, Warning};
 
 use crate::adhesion::{
     AdhesionError, AdhesionKind, AdhesionOptions, AdhesionWarning, FirstLayer, Foundation, RaftLayer,
@@ -35,6 +35,9 @@ use crate::region::first_layer::draw_in;
 use crate::settings::Settings;
 use crate::slice::heights::plan_layers;
 use crate::slice::{Axis, LayerSpec, slice_mesh};
+use crate::support::{
+    SupportError, SupportInput, SupportMethod, SupportWarning, Supports, check_options, plan_supports,
+};
 
 /// Milliseconds since some fixed moment; the core has no clock of its own.
 pub type Clock<'a> = &'a dyn Fn() -> f64;
@@ -57,6 +60,8 @@ pub enum JobError {
     Empty,
     /// No orientation can be proposed for a model.
     Orientation(OrientationError),
+    /// Settings under `support` that contradict each other.
+    Support(SupportError),
     /// Settings under `adhesion` that contradict each other.
     Adhesion(AdhesionError),
     /// A start or end code of the settings cannot be used.
@@ -74,6 +79,7 @@ impl fmt::Display for JobError {
             JobError::Fit(error) => error.fmt(f),
             JobError::Empty => write!(f, "there is nothing to print"),
             JobError::Orientation(error) => error.fmt(f),
+            JobError::Support(error) => error.fmt(f),
             JobError::Adhesion(error) => error.fmt(f),
             JobError::Gcode(error) => error.fmt(f),
             JobError::LayerMissing { index } => write!(f, "layer {index} was never worked"),
@@ -93,9 +99,11 @@ pub struct Job {
     spans: Vec<[f32; 2]>,
     specs: Vec<LayerSpec>,
     placements: Vec<DMat4>,
-    foundation: Vec<Vec<Path>>,
+    /// For each layer the beads of base layers and supports, in printing order.
+    laid: Vec<Vec<Path>>,
     orientation: Option<OrientationReport>,
     adhesion: AdhesionReport,
+    support: Option<SupportReport>,
     /// What is known of each layer so far.
     layers: Vec<Option<LayerSummary>>,
     warnings: Vec<Warning>,
@@ -127,7 +135,8 @@ impl Job {
             layers: vec![None; specs.len()],
             warnings: model_warnings(models).into_iter().chain(turned.warnings).collect(),
             orientation: turned.report,
-            foundation: Vec::new(),
+            laid: Vec::new(),
+            support: None,
             adhesion: AdhesionReport::default(),
             timing: Timing::default(),
             settings,
@@ -166,13 +175,22 @@ impl Job {
     /// Works out what all layers share. To be called once, before any range; a raft adds layers.
     pub fn prepare(&mut self, clock: Clock) -> Result<(), JobError> {
         let started = clock();
-        let foundation = self.lay_foundation(&self.settings.adhesion)?;
+        let supports = self.plan_supports()?;
+        let supported = clock();
+        let foundation = self.lay_foundation(&self.settings.adhesion, &supports.bed_area())?;
         let kind = self.settings.adhesion.kind;
-        self.adhesion = AdhesionReport::new(kind, &foundation.figures, clock() - started);
-        self.timing.adhesion = clock() - started;
+        self.adhesion = AdhesionReport::new(kind, &foundation.figures, clock() - supported);
+        self.timing.support = supported - started;
+        self.timing.adhesion = clock() - supported;
         self.warnings.extend(foundation.warnings.iter().map(adhesion_warning));
+        self.warnings.extend(supports.warnings().iter().map(support_warning));
+        self.support = SupportReport::of(&supports);
+        self.laid = (0..self.specs.len()).map(|k| supports.layer_paths(k)).collect();
         if foundation.raft.is_empty() {
-            self.foundation = foundation.layers;
+            // The base is printed first: it keeps what follows on the bed.
+            for (place, paths) in self.laid.iter_mut().zip(foundation.layers) {
+                place.splice(..0, paths);
+            }
         } else {
             self.raise_on(foundation);
         }
@@ -180,8 +198,26 @@ impl Job {
         Ok(())
     }
 
-    /// What is laid around or below the part's first layer.
-    fn lay_foundation(&self, adhesion: &AdhesionOptions) -> Result<Foundation, JobError> {
+    /// Supports of the whole part.
+    fn plan_supports(&self) -> Result<Supports, JobError> {
+        let options = &self.settings.support;
+        check_options(options).map_err(JobError::Support)?;
+        if options.method == SupportMethod::None {
+            return Ok(Supports::default());
+        }
+        let heights: Vec<f64> = self.specs.iter().map(|s| s.slice_z).collect();
+        let sections = slice_mesh(&self.mesh, Axis::Z, &heights, PRINT_RESOLUTION);
+        let areas: Vec<PolygonSet> = sections.into_iter().map(|s| s.area).collect();
+        let input = SupportInput { mesh: &self.mesh, layers: &self.specs, areas: &areas };
+        plan_supports(&input, options, &mut |_, _| true).map_err(JobError::Support)
+    }
+
+    /// What is laid around or below the first layer of part and supports.
+    fn lay_foundation(
+        &self,
+        adhesion: &AdhesionOptions,
+        supports: &PolygonSet,
+    ) -> Result<Foundation, JobError> {
         let Settings { first_layer, layers, printer, .. } = &self.settings;
         let bottom = slice_mesh(&self.mesh, Axis::Z, &[self.specs[0].slice_z], PRINT_RESOLUTION);
         let section = bottom.into_iter().next().unwrap_or_default().area;
@@ -190,7 +226,7 @@ impl Job {
             if adhesion.kind == AdhesionKind::Raft { section } else { draw_in(&section, first_layer) };
         let first = FirstLayer {
             outline: &outline,
-            supports: &PolygonSet::EMPTY,
+            supports,
             bed: Bounds { min: DVec2::ZERO, max: DVec2::from_array(printer.bed_size) },
             line_width: first_layer.line_width,
             height: layers.first_height,
@@ -216,7 +252,7 @@ impl Job {
         };
         self.specs = (0..).zip(&foundation.raft).map(&mut spec_of).collect();
         self.specs.extend(raised);
-        self.foundation = foundation.raft.into_iter().map(|layer| layer.paths).collect();
+        self.laid.splice(..0, foundation.raft.into_iter().map(|layer| layer.paths));
     }
 
     /// The layers `first..last` as a piece of work for another engine.
@@ -242,7 +278,7 @@ impl Job {
             specs: self.specs[low..high].to_vec(),
             first: first - low,
             last: last - low,
-            foundation: if first < self.foundation.len() { self.foundation.clone() } else { Vec::new() },
+            laid: self.laid[first.min(self.laid.len())..last.min(self.laid.len())].to_vec(),
         }
     }
 
@@ -307,6 +343,7 @@ impl Job {
             time_s: totals.time_s,
             by_role: totals.by_role.clone(),
             adhesion: self.adhesion.timed(&totals.by_role),
+            support: self.support.as_ref().map(|s| s.timed(&totals.by_role)),
             orientation: self.orientation.clone(),
             timing_ms: self.timing,
             warnings: self.warnings.clone(),
@@ -344,6 +381,11 @@ fn model_warnings(models: &[NamedModel]) -> Vec<Warning> {
         found.map(named).collect::<Vec<_>>()
     };
     models.iter().flat_map(of_model).collect()
+}
+
+fn support_warning(found: &SupportWarning) -> Warning {
+    let SupportWarning { code, message, layer, at } = found.clone();
+    Warning { code, message, layer, at }
 }
 
 fn adhesion_warning(found: &AdhesionWarning) -> Warning {

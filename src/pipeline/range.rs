@@ -34,8 +34,9 @@ pub struct RangePlan {
     pub first: usize,
     /// Place in `specs` after the last layer to print.
     pub last: usize,
-    /// Paths of the base layers by layer index; printed before the part's.
-    pub foundation: Vec<Vec<Path>>,
+    /// For each layer to print what the global phase has laid, base layers and supports, in
+    /// printing order; printed before the part.
+    pub laid: Vec<Vec<Path>>,
 }
 
 /// A range made ready for an engine that does not hold the job.
@@ -205,7 +206,7 @@ fn lay_paths(
     let after_regions = clock();
 
     let mut parts = LayerParts { walls: walls.loops, ..LayerParts::default() };
-    parts.foundation = plan.foundation.get(spec.index as usize).cloned().unwrap_or_default();
+    parts.foundation = plan.laid.get(place - plan.first).cloned().unwrap_or_default();
     let nozzle = settings.printer.nozzle_diameter;
     let mut gaps = vec![walls.thin_inner];
     for region in regions {

@@ -9,6 +9,7 @@ use crate::gcode::RoleUse;
 use crate::orientation::OrientationReport;
 use crate::polygon::DVec2;
 use crate::region::Role;
+use crate::support::{self, SupportMethod, Supports};
 
 /// A remark on the job that does not stop it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -120,10 +121,39 @@ impl AdhesionReport {
 
     /// With the time that the adhesion roles take.
     pub fn timed(&self, by_role: &BTreeMap<Role, RoleUse>) -> AdhesionReport {
-        let roles = [Role::Skirt, Role::Brim, Role::Teeth, Role::Raft];
-        let time_s = roles.iter().filter_map(|r| by_role.get(r)).map(|used| used.time_s).sum();
+        let time_s = time_of(&[Role::Skirt, Role::Brim, Role::Teeth, Role::Raft], by_role);
         AdhesionReport { time_s, ..*self }
     }
+}
+
+/// What holds overhangs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct SupportReport {
+    /// Time to print supports, travels left out, s.
+    pub time_s: f64,
+    /// Volumes, pieces, planes and what stays uncovered.
+    #[serde(flatten)]
+    pub figures: support::SupportReport,
+}
+
+impl SupportReport {
+    /// Before the G-code is planned: without the time to print; `None` without supports.
+    pub fn of(supports: &Supports) -> Option<SupportReport> {
+        let figures = supports.report().clone();
+        (figures.method != SupportMethod::None).then_some(SupportReport { time_s: 0.0, figures })
+    }
+
+    /// With the time that the support roles take.
+    pub fn timed(&self, by_role: &BTreeMap<Role, RoleUse>) -> SupportReport {
+        let time_s = time_of(&[Role::Support, Role::SupportInterface], by_role);
+        SupportReport { time_s, ..self.clone() }
+    }
+}
+
+/// Time to print the beads of these roles, s.
+fn time_of(roles: &[Role], by_role: &BTreeMap<Role, RoleUse>) -> f64 {
+    roles.iter().filter_map(|r| by_role.get(r)).map(|used| used.time_s).sum()
 }
 
 /// Figures of a finished job.
@@ -149,6 +179,9 @@ pub struct Report {
     pub by_role: BTreeMap<Role, RoleUse>,
     /// What holds the part on the bed.
     pub adhesion: AdhesionReport,
+    /// What holds overhangs; only with a `support.method`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub support: Option<SupportReport>,
     /// The directions compared and the choice; only with `orientation.mode` auto.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub orientation: Option<OrientationReport>,
