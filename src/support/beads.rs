@@ -120,7 +120,7 @@ fn with_feet(frame: &Frame, plates: &[Plate], axis: Axis, mut lines: Lines) -> L
         for at in [wide[0].at, wide[wide.len() - 1].at] {
             let is_taken = lines.iter().any(|(other, spans)| {
                 (other - at).abs() < frame.width - 1e-9
-                    && spans.iter().any(|s| beads.iter().any(|b| spans::meet(*s, *b, 0.0)))
+                    && spans.iter().any(|s| beads.iter().any(|b| spans::meet(*s, *b, frame.width)))
             });
             if !is_taken && !beads.is_empty() {
                 // As long as the plate's own bead, and as clear of the part.

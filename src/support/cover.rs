@@ -127,9 +127,11 @@ pub(super) fn boxes_at(boxes: &[[f64; 6]], low: f64, high: f64) -> Vec<PolygonSe
     met.map(|[min, max]| PolygonSet::rectangle(dvec2(min[0], min[1]), dvec2(max[0], max[1]))).collect()
 }
 
-/// How far a bead's centre line holds, mm: half the smaller spacing and the bead's own half width.
+/// How far a bead's centre line holds, mm: half the smaller spacing. Counting from the bead's side
+/// instead, half a width more, would save a tenth of the plastic on `bridge_test.stl` (18.8 % of the
+/// complete support instead of 22.0 %); the print does not say which it means.
 fn reach(job: &Job) -> f64 {
-    job.spacing(Axis::X).min(job.spacing(Axis::Y)) / 2.0 + job.frame.width / 2.0
+    job.spacing(Axis::X).min(job.spacing(Axis::Y)) / 2.0
 }
 
 /// What of a need no bead holds.

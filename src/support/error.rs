@@ -4,7 +4,11 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::cover::in_plan;
+use super::frame::Frame;
+use super::pieces::Tower;
 use super::plane::PlaneSection;
+use super::plates::Plate;
 use super::report::{PlateAxis, Uncovered};
 use crate::options::OutOfRange;
 use crate::slice::{Axis, Gap};
@@ -67,6 +71,17 @@ impl SupportWarning {
             message: format!("{:.2} mm2 hang without support: there is no room for a plate", place.area_mm2),
             layer: Some(place.layer),
             at: Some(place.at),
+        }
+    }
+
+    pub(super) fn slender(frame: &Frame, plates: &[Plate], tower: &Tower) -> SupportWarning {
+        let plate = &plates[tower.plate];
+        let top = frame.layers[tower.top].print_z;
+        SupportWarning {
+            code: "support_slender".to_owned(),
+            message: format!("a plate {top:.1} mm tall has no room for one across it and may buckle"),
+            layer: Some(tower.top as u32),
+            at: Some(in_plan(plate.axis, plate.at, (tower.span[0] + tower.span[1]) / 2.0).to_array()),
         }
     }
 

@@ -189,6 +189,7 @@ impl Job<'_> {
             contact_mm2: beads::contact(&self.frame, &plates),
         };
         warnings.extend(report.uncovered.iter().map(SupportWarning::uncovered));
+        warnings.extend(sorted.towers.iter().map(|t| SupportWarning::slender(&self.frame, &plates, t)));
         step(STEPS)?;
         Ok(Supports { layers, line_width: self.frame.width, report, warnings })
     }
