@@ -1,4 +1,4 @@
-//! Skirt, brim, raft and teeth beside each other: the numbers of ALGORITHMS 1.6 and the usual ones.
+//! Skirt, brim, raft and teeth beside each other: numbers on paper and the usual ones.
 
 #[path = "fixtures/adhesion/picture.rs"]
 mod picture;

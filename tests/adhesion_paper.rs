@@ -1,4 +1,4 @@
-//! Brim teeth as [Lv 2022] has them: the worked example, the errata and the flaws of ALGORITHMS 1.
+//! Brim teeth as [Lv 2022] has them: the worked example, the errata and the flaws of the printed method.
 
 #[path = "fixtures/adhesion/picture.rs"]
 mod picture;

@@ -1,4 +1,4 @@
-//! A thousand random first layers: the guarantees of ALGORITHMS 1.5 hold for teeth, and no kind
+//! A thousand random first layers: the guarantees of docs/adhesion.md hold for teeth, and no kind
 //! panics, leaves the bed or lays a number that is none. A tenth of them by default; all with FOOTHOLD_LONG=1.
 
 #[path = "fixtures/adhesion/picture.rs"]

@@ -1,4 +1,4 @@
-//! Teeth along the contour keep the guarantees of ALGORITHMS 1.5, shape by shape.
+//! Teeth along the contour keep the guarantees of docs/adhesion.md, shape by shape.
 
 #[path = "fixtures/adhesion/picture.rs"]
 mod picture;

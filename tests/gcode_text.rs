@@ -2,15 +2,20 @@
 
 use foothold::gcode::read::{ReadMove, Reader};
 use foothold::gcode::{
-    GcodeOptions, LayerInput, Move, Place, RetractionOptions, bead_area, filament_area, layer_gcode,
-    plan_layer, type_name,
+    GcodeOptions, LayerInput, Move, Place, RetractionOptions, filament_area, layer_gcode, plan_layer,
+    type_name,
 };
 use foothold::polygon::{DVec2, dvec2};
-use foothold::region::{Path, Role, Width};
+use foothold::region::{Bead, Path, Role, Width};
 use proptest::prelude::*;
 
 /// A step of the text's E in mm3 of usual filament: the least that rounding can hide.
 const STEP_MM3: f64 = 2.5e-5;
+
+/// Cross-section of a bead of this width in a layer of 0.2 mm.
+fn bead_area(width: f64) -> f64 {
+    Bead { width, height: 0.2 }.area()
+}
 
 fn layer(index: u32, paths: &[Path]) -> LayerInput<'_> {
     LayerInput { index, print_z: 0.2 + 0.2 * f64::from(index), height: 0.2, paths, crosses_outline: &[] }
@@ -117,7 +122,7 @@ fn a_wedge_keeps_its_volume_and_states_widths_that_fit_its_flow() {
     assert_eq!(moves.len(), 15);
     for step in moves {
         let flow = step.filament_mm * filament_area(1.75) / step.length();
-        let stated = bead_area(step.width.expect("stated"), 0.2);
+        let stated = bead_area(step.width.expect("stated"));
         assert!((flow / stated - 1.0).abs() < 0.01, "{step:?}");
     }
 }
@@ -265,7 +270,7 @@ proptest! {
                 let steps = 2000;
                 let mean: f64 = (0..steps).map(|k| {
                     let t = (f64::from(k) + 0.5) / f64::from(steps);
-                    bead_area(path.width.at(i) + (path.width.at(j) - path.width.at(i)) * t, 0.2)
+                    bead_area(path.width.at(i) + (path.width.at(j) - path.width.at(i)) * t)
                 }).sum::<f64>() / f64::from(steps);
                 expected += mean * length;
             }
@@ -299,7 +304,7 @@ proptest! {
         let made = layer_gcode(&layer(1, &paths), &GcodeOptions::default());
         let start = made.summary.stops.expect("text").start;
         for step in read_layer(&made.text, start, 0.4).iter().filter(|m| m.lays_bead()) {
-            let stated = bead_area(step.width.expect("stated"), 0.2) * step.length();
+            let stated = bead_area(step.width.expect("stated")) * step.length();
             let found = step.filament_mm * filament_area(1.75);
             prop_assert!((found - stated).abs() <= 0.01 * stated + STEP_MM3, "{:?}", step);
         }

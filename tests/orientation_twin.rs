@@ -1,4 +1,4 @@
-//! A slow twin of the support volumes on a grid of pixels, written from ALGORITHMS and [Karim]
+//! A slow twin of the support volumes on a grid of pixels, written from [Karim]
 //! alone: no polygon operation of the engine is used, only the loops of its cuts for the growth.
 
 mod orientation_shapes;

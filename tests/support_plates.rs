@@ -1,4 +1,4 @@
-//! Plates over the whole part: the numbers of ALGORITHMS.md 2.4, gaps, crossings and coverage.
+//! Plates over the whole part: the numbers of a T on paper, gaps, crossings and coverage.
 
 mod common;
 

@@ -1,4 +1,4 @@
-// Any error -> one line and the exit code that PRODUCT names for it.
+// Any error -> one line and the exit code for it.
 import { EngineError } from '../../www/src/slicer/errors.ts';
 import { UsageError } from './args.ts';
 

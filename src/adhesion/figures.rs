@@ -1,11 +1,11 @@
-//! The figures of the report [ALGORITHMS 1.6].
+//! The figures of the report.
 
 use super::attachment::length_within;
 use super::ground::Ground;
 use super::segments::{Segment, Segments};
 use super::{AdhesionFigures, FirstLayer, Foundation};
 use crate::polygon::{Contour, DVec2};
-use crate::region::{Path, Width};
+use crate::region::{Bead, Path, Width};
 
 /// An outline this much farther from a centre line than half its width still holds, mm.
 const TOUCH_MM: f64 = 0.05;
@@ -54,10 +54,9 @@ fn edges(path: &Path) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
     path.points.windows(2).map(|w| (w[0], w[1])).chain(closing)
 }
 
-/// Volume of beads, mm3: a rounded rectangle, (w - h) h + pi h^2 / 4, times length.
+/// Volume of beads, mm3: cross-section times length.
 fn volume(beads: &[Path], height: f64) -> f64 {
-    let section = |w: f64| (w - height) * height + std::f64::consts::PI * height * height / 4.0;
-    beads.iter().map(|p| p.length() * section(width(p))).sum()
+    beads.iter().map(|p| p.length() * Bead { width: width(p), height }.area()).sum()
 }
 
 /// Width of a bead; adhesion lays uniform ones only.

@@ -3,17 +3,6 @@
 use super::FILAMENT_STEPS;
 use std::f64::consts::PI;
 
-/// Cross-section of a bead, mm2, from its width and the layer's height in mm.
-///
-/// A bead wider than high is a rectangle with half circles at both sides: (w - h) h + pi h^2 / 4
-/// (PRODUCT.md 4; the usual model, for instance Slic3r manual, "Flow math"). A bead narrower than
-/// high can't be that shape; it is taken as an ellipse, pi w h / 4, which meets the other at w = h
-/// and vanishes with the width. Negative sizes count as 0.
-pub fn bead_area(width: f64, height: f64) -> f64 {
-    let (w, h) = (width.max(0.0), height.max(0.0));
-    if w >= h { (w - h) * h + PI * h * h / 4.0 } else { PI * w * h / 4.0 }
-}
-
 /// Cross-section of the filament, mm2, from its diameter in mm.
 pub fn filament_area(diameter: f64) -> f64 {
     PI * diameter * diameter / 4.0
@@ -46,28 +35,21 @@ impl Feeder {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::region::Bead;
 
     #[test]
     fn a_hundred_mm_of_the_usual_bead_needs_3_38488_mm_of_filament() {
         // Area (0.45 - 0.2) 0.2 + pi 0.04 / 4 = 0.05 + 0.0314159 = 0.0814159 mm2; times 100 mm and
         // over the filament's pi 1.75^2 / 4 = 2.4052819 mm2 that is 3.38488 mm.
-        assert!((bead_area(0.45, 0.2) - 0.081_415_926_5).abs() < 1e-10);
+        assert!((Bead { width: 0.45, height: 0.2 }.area() - 0.081_415_926_5).abs() < 1e-10);
         assert!((filament_area(1.75) - 2.405_281_9).abs() < 1e-7);
-        assert_eq!(Feeder::new(1.75).filament(bead_area(0.45, 0.2) * 100.0), 338_488);
-    }
-
-    #[test]
-    fn a_bead_as_wide_as_high_is_a_circle_and_narrower_ones_shrink_to_nothing() {
-        assert!((bead_area(0.2, 0.2) - PI * 0.01).abs() < 1e-15);
-        assert!((bead_area(0.2 - 1e-12, 0.2) - PI * 0.01).abs() < 1e-12);
-        assert_eq!(bead_area(0.0, 0.2), 0.0);
-        assert_eq!(bead_area(-1.0, 0.2), 0.0);
+        assert_eq!(Feeder::new(1.75).filament(Bead { width: 0.45, height: 0.2 }.area() * 100.0), 338_488);
     }
 
     #[test]
     fn a_thousand_short_segments_add_up_to_one_long_one() {
         let mut feeder = Feeder::new(1.75);
-        let volume = bead_area(0.45, 0.2) * 0.1;
+        let volume = Bead { width: 0.45, height: 0.2 }.area() * 0.1;
         let sum: i32 = (0..1000).map(|_| feeder.filament(volume)).sum();
         assert!((sum - 338_488).abs() <= 1, "{sum}");
     }

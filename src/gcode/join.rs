@@ -4,11 +4,11 @@ use super::plan::{Account, Hop, feed_rate, filament_steps, micrometres, z_feed};
 use super::start::{PrintFacts, end_code, follow, start_code};
 use super::writer::Writer;
 use super::{
-    FILAMENT_STEPS, GcodeError, GcodeOptions, LayerSummary, Limits, Move, Place, RoleUse, bead_area,
-    filament_area, move_times,
+    FILAMENT_STEPS, GcodeError, GcodeOptions, LayerSummary, Limits, Move, Place, RoleUse, filament_area,
+    move_times,
 };
 use crate::polygon::dvec2;
-use crate::region::Role;
+use crate::region::{Bead, Role};
 use std::collections::BTreeMap;
 
 /// Where the prime line begins, mm from the front left corner of the bed; it ends as far from the
@@ -197,7 +197,7 @@ impl<'a> Route<'a> {
         }
         let height = self.prime_height(facts);
         let width = printer.nozzle_diameter * PRIME_WIDTH;
-        let area = bead_area(width, height);
+        let area = Bead { width, height }.area();
         let feed = feed_rate(speed.prime.min(filament.max_volumetric_speed / area));
         let [from, to] = [dvec2(x, y), dvec2(x + length, y)].map(Place::of);
         let pushed = area * from.distance(to) / filament_area(filament.diameter);

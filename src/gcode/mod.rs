@@ -28,7 +28,7 @@ mod writer;
 use std::collections::BTreeMap;
 
 pub use estimate::{Limits, move_times};
-pub use extrude::{bead_area, filament_area};
+pub use extrude::filament_area;
 pub use flavor::Flavor;
 pub use join::{FileNotes, Joined, Piece, Totals, assemble, format_duration, join};
 pub use options::{FilamentOptions, GcodeOptions, PrinterOptions, RetractionOptions, SpeedOptions};

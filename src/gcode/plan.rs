@@ -1,8 +1,8 @@
 //! Paths of one layer, in printing order, to the moves of the machine.
 
-use super::extrude::{Feeder, bead_area};
+use super::extrude::Feeder;
 use super::{FILAMENT_STEPS, GcodeOptions, LayerInput, LayerSummary, Move, Place, RoleUse, Stops};
-use crate::region::{Path, Role, Width};
+use crate::region::{Bead, Path, Role, Width};
 use std::collections::BTreeMap;
 
 /// Where a bead changes its width it is cut into pieces of one width each, so that flow and the
@@ -138,7 +138,7 @@ impl<'a> Planner<'a> {
 
     /// Beads of one width along the whole path.
     fn uniform(&mut self, path: &Path, places: &[Place], width: f64) {
-        let area = bead_area(width, self.height);
+        let area = Bead { width, height: self.height }.area();
         let feed = self.bead_feed(path.role, area);
         self.state_width(micrometres(width).max(0) as u32);
         for &to in &places[1..] {
@@ -169,7 +169,7 @@ impl<'a> Planner<'a> {
         for k in 0..pieces {
             let share = |part: f64| (f64::from(k) + part) / f64::from(pieces);
             let width = from_width + (to_width - from_width) * share(0.5);
-            let area = bead_area(width, self.height);
+            let area = Bead { width, height: self.height }.area();
             self.state_nearly(width, area);
             let piece_end = if k + 1 == pieces { to } else { Place::of(start.lerp(end, share(1.0))) };
             self.bead(piece_end, area, self.bead_feed(role, area));
@@ -225,7 +225,8 @@ impl<'a> Planner<'a> {
 
     /// States a width unless the stated one gives nearly the same flow.
     fn state_nearly(&mut self, width: f64, area: f64) {
-        let stated = self.stated_width.map(|w| bead_area(f64::from(w) / 1000.0, self.height));
+        let stated =
+            self.stated_width.map(|w| Bead { width: f64::from(w) / 1000.0, height: self.height }.area());
         if stated.is_none_or(|s| (s - area).abs() > WIDTH_TOLERANCE * area) {
             self.state_width(micrometres(width).max(0) as u32);
         }

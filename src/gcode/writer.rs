@@ -8,7 +8,7 @@ use crate::region::Role;
 /// Longest line of a move: letters, signs, 10 digits and a point for each of four words, with room.
 const LINE: usize = 80;
 
-/// Name in `;TYPE:` comments, as PrusaSlicer writes them and viewers read them (PRODUCT.md 4).
+/// Name in `;TYPE:` comments, as PrusaSlicer writes them and viewers read them.
 pub const fn type_name(role: Role) -> &'static str {
     match role {
         Role::OuterWall => "External perimeter",

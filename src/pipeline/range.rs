@@ -10,14 +10,14 @@ use crate::mesh::Mesh;
 use crate::polygon::PolygonSet;
 use crate::region::first_layer::draw_in;
 use crate::region::shell::{Exposure, Shells, divide, exposure, hair_of_walls};
-use crate::region::{Path, Role};
+use crate::region::{Bead, Path, Role};
 use crate::settings::Settings;
 use crate::slice::{Axis, LayerSpec, Section, slice_triangles};
 use crate::toolpath::infill::{fill_solid, fill_sparse};
 use crate::toolpath::medial::{ThinFill, fill_thin};
 use crate::toolpath::seam::start_at_seam;
 use crate::toolpath::walls::lay_walls;
-use crate::toolpath::{Bead, LayerParts, LayerPaths, order_layer};
+use crate::toolpath::{LayerParts, LayerPaths, order_layer};
 
 /// By how much a contour may be simplified for printing, mm: an eighth of what a printer's
 /// positioning resolves.

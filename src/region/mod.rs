@@ -1,11 +1,13 @@
 //! What each area of a layer is for.
 
+mod bead;
 pub mod first_layer;
 pub mod overhang;
 mod path;
 pub mod shell;
 
 use crate::polygon::PolygonSet;
+pub use bead::Bead;
 pub use path::{Path, Width};
 
 /// An area of a layer and what it is for.

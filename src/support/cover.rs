@@ -16,7 +16,7 @@ use crate::polygon::{Contour, DVec2, Join, Polygon, PolygonSet, dvec2};
 use crate::region::overhang::{self, Island};
 use crate::slice::{Axis, slice_triangles};
 
-/// Needs narrower than twice this, mm, hold themselves (ALGORITHMS.md 2.3: opened by 0.2).
+/// Needs narrower than twice this, mm, hold themselves (opened by 0.2).
 const OPENING_MM: f64 = 0.2;
 
 /// Spots that hang and are smaller than this, mm2, are corners of the rule, not of the part.

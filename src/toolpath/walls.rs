@@ -3,8 +3,8 @@
 //! A loop is laid only where the part is thick enough for two beads side by side; thinner places
 //! are handed on, to be filled by beads of fitting width.
 
-use super::bead::Bead;
 use crate::polygon::{Join, PolygonSet};
+use crate::region::Bead;
 use crate::region::{Path, Role};
 
 crate::options! {

@@ -6,8 +6,8 @@
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use crate::polygon::{Contour, DVec2, Join, PolygonSet, dvec2};
+use crate::region::Bead;
 use crate::region::{Path, Role};
-use crate::toolpath::bead::Bead;
 
 /// A family of parallel lines.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,8 +2,8 @@
 
 pub mod lines;
 
-use super::bead::Bead;
 use crate::polygon::PolygonSet;
+use crate::region::Bead;
 use crate::region::{Path, Role};
 use lines::Hatch;
 

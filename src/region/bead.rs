@@ -12,9 +12,12 @@ pub struct Bead {
 }
 
 impl Bead {
-    /// Area of the cross-section, mm2: (w - h) h + pi h^2 / 4.
+    /// Area of the cross-section, mm2: (w - h) h + pi h^2 / 4. A bead narrower than high can't be that
+    /// shape; it is taken as an ellipse, pi w h / 4, which meets the other at w = h and vanishes with
+    /// the width. Negative sizes count as 0.
     pub fn area(self) -> f64 {
-        (self.width - self.height) * self.height + PI * self.height * self.height / 4.0
+        let (w, h) = (self.width.max(0.0), self.height.max(0.0));
+        if w >= h { (w - h) * h + PI * h * h / 4.0 } else { PI * w * h / 4.0 }
     }
 
     /// Distance between the centre lines of neighbouring beads at which their material exactly
@@ -33,6 +36,14 @@ impl Bead {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_bead_as_wide_as_high_is_a_circle_and_narrower_ones_shrink_to_nothing() {
+        let area = |width: f64| Bead { width, height: 0.2 }.area();
+        assert!((area(0.2) - PI * 0.01).abs() < 1e-15);
+        assert!((area(0.2 - 1e-12) - PI * 0.01).abs() < 1e-12);
+        assert_eq!((area(0.0), area(-1.0)), (0.0, 0.0));
+    }
 
     #[test]
     fn spacing_is_narrower_than_the_bead_by_what_the_round_sides_leave_open() {
