@@ -3,18 +3,17 @@
 //! Source: [Karim] equations (9) to (12). A_k is the part's section in layer k, S_k the support
 //! region, both seen from above; layers are counted from the bed.
 
-use crate::polygon::boolean::NOTHING_MM2;
-use crate::polygon::{Contour, DVec2, Join, PolygonSet};
-use crate::region::overhang::{self, Island};
+use crate::polygon::{Contour, DVec2, Polygon, PolygonSet, dvec2};
+use crate::region::overhang::{self, Island, Strips};
 
 /// Slits and slivers of a support region that are thinner than this, mm, are rounding artefacts of
 /// borders that ran along each other: three grid steps.
 const THIN_MM: f64 = 3e-4;
 
-/// How far a region is carried down reaching under the part, mm. Borders of S_(k+1) and of ESF_k that
-/// run along each other are rounded each in its own way; without the overlap a slit stays between
-/// them, and each layer's piece is counted as a structure of its own (129 instead of 2 in one trial).
-const TUCK_MM: f64 = 5e-4;
+/// How far ESF_k reaches over its border with S_(k+1), mm. Both run along A_(k+1) there and are
+/// rounded each in its own way. Without this a slit may stay between them, and each layer's piece
+/// counts as a structure of its own (129 instead of 3 in one trial).
+const BRIDGE_MM: f64 = 3e-4;
 
 /// Dents in the border of a support region that are shallower than this share of the layer height
 /// are filled: they cost time in every layer below and hold next to nothing.
@@ -66,8 +65,8 @@ pub struct Descent {
     /// S_k of the layer entered last, and its components.
     region: PolygonSet,
     parts: Vec<Part>,
-    /// S_k reaching under the part by [`TUCK_MM`].
-    tucked: PolygonSet,
+    /// area(S_k), before dents are filled.
+    region_mm2: f64,
     structures: Structures,
     support_mm3: f64,
 }
@@ -77,6 +76,12 @@ pub struct Descent {
 struct Part {
     island: Island,
     node: usize,
+}
+
+impl Part {
+    fn overlap(&self, other: &Island) -> PolygonSet {
+        self.island.polygon.clone().into_set().intersection(&other.polygon.clone().into_set())
+    }
 }
 
 impl Descent {
@@ -89,7 +94,7 @@ impl Descent {
             area: PolygonSet::EMPTY,
             region: PolygonSet::EMPTY,
             parts: Vec::new(),
-            tucked: PolygonSet::EMPTY,
+            region_mm2: 0.0,
             structures: Structures::default(),
             support_mm3: 0.0,
         }
@@ -103,58 +108,61 @@ impl Descent {
     pub fn enter(&mut self, area: PolygonSet, layers: u32) {
         if area != self.area {
             let esf = overhang::externally_supported(&self.area, &area, self.step);
-            if !esf.is_empty() || !self.tucked.is_empty() {
+            if !esf.is_empty() || !self.region.is_empty() {
                 self.replace_region(&area, &esf);
             }
             self.area = area;
         }
-        self.support_mm3 += self.region.area() * self.rules.layer_height * f64::from(layers);
+        self.support_mm3 += self.region_mm2 * self.rules.layer_height * f64::from(layers);
     }
 
     fn replace_region(&mut self, area: &PolygonSet, esf: &PolygonSet) {
-        // Borders towards the supports above and the air beside stay where they are.
-        let reaching_under = esf.offset(TUCK_MM, Join::WALL).intersection(&self.area);
-        let merged = self.tucked.union(&reaching_under);
-        let region = without_slivers(merged.difference(area));
-        let tucked = merged.difference(&area.offset(-TUCK_MM, Join::WALL));
-        self.tucked = filled(without_slivers(tucked), DENT_SHARE * self.rules.layer_height);
+        let mut held = reaching_over(esf, &self.region);
+        held.extend_from_slice(self.region.contours());
+        // These contours overlap: one operand of the difference, which counts what is wound around.
+        let held = PolygonSet::canonical(held);
+        let exact = without_slivers(held.difference(area));
+        self.region_mm2 = exact.area();
+        let region = filled(exact, DENT_SHARE * self.rules.layer_height);
         if !esf.is_empty() || region != self.region {
             let islands = Island::all_of(&region).into_iter();
             let parts = islands.map(|island| Part { node: self.structures.add(&island), island });
             let parts: Vec<Part> = parts.collect();
-            self.join_parts(&parts, area, esf);
+            self.join_parts(&parts, area);
             (self.region, self.parts) = (region, parts);
         }
     }
 
     /// Joins the components of S_k, which are `parts`, to those of S_(k+1) that they overlap.
     ///
-    /// `esf` lies below the part and S_(k+1) does not, so S_(k+1) - A_k is all that they share: each
-    /// piece of it ties the component above that it came from to the one it lies in now.
-    fn join_parts(&mut self, parts: &[Part], area: &PolygonSet, esf: &PolygonSet) {
-        let own = |parts: &[Part]| parts.iter().map(|part| part.island.polygon.area()).sum::<f64>();
-        if let ([above], [below]) = (&self.parts[..], &parts[..]) {
-            if own(parts) > esf.area() + NOTHING_MM2 {
-                self.structures.join(above.node, below.node);
-            }
-        } else if esf.is_empty() {
-            let shared: Vec<DVec2> =
-                parts.iter().filter_map(|part| overhang::inner_point(&part.island.polygon)).collect();
-            self.join_at(&shared, parts);
-        } else {
-            let carried = self.region.difference(area).islands();
-            let shared: Vec<DVec2> = carried.iter().filter_map(overhang::inner_point).collect();
-            self.join_at(&shared, parts);
+    /// A point inside one that lies in the other settles it for most; the overlap itself is made
+    /// for those whose point lies in the part above or below.
+    fn join_parts(&mut self, parts: &[Part], area: &PolygonSet) {
+        let above = std::mem::take(&mut self.parts);
+        for part in parts {
+            let shared = |other: &Part| part.overlap(&other.island).islands();
+            self.join_to(part, &above, shared);
+        }
+        for part in &above {
+            // Nothing of S_k lies in A_k.
+            let shared = |_: &Part| part.island.polygon.clone().into_set().difference(area).islands();
+            self.join_to(part, parts, shared);
         }
     }
 
-    /// Joins what lies above and below at each of these points.
-    fn join_at(&mut self, points: &[DVec2], parts: &[Part]) {
-        for &point in points {
-            let holder =
-                |parts: &[Part]| parts.iter().find(|part| part.island.contains(point)).map(|p| p.node);
-            if let (Some(above), Some(below)) = (holder(&self.parts), holder(parts)) {
-                self.structures.join(above, below);
+    /// Joins `part` to the one of `others` that holds its inner point, else to those that hold an
+    /// inner point of what they share.
+    fn join_to(&mut self, part: &Part, others: &[Part], shared: impl Fn(&Part) -> Vec<Polygon>) {
+        let holds = |point: DVec2| move |other: &&Part| other.island.contains(point);
+        if let Some(other) =
+            overhang::inner_point(&part.island.polygon).and_then(|p| others.iter().find(holds(p)))
+        {
+            return self.structures.join(part.node, other.node);
+        }
+        for other in others.iter().filter(|other| other.island.bounds.is_near(part.island.bounds, 0.0)) {
+            let points = shared(other).into_iter().filter_map(|piece| overhang::inner_point(&piece));
+            if points.into_iter().any(|p| other.island.contains(p)) {
+                self.structures.join(part.node, other.node);
             }
         }
     }
@@ -178,6 +186,51 @@ impl Descent {
             bed_contact_mm2: self.area.area() + 0.0,
         }
     }
+}
+
+/// `esf` reaching over the slit to `region` by [`BRIDGE_MM`] where the two share a border; free
+/// borders stay where they are.
+fn reaching_over(esf: &PolygonSet, region: &PolygonSet) -> Vec<Contour> {
+    if region.is_empty() || esf.is_empty() {
+        return esf.contours().to_vec();
+    }
+    let strips = Strips::new(region);
+    esf.contours().iter().map(|contour| reach_over(contour, &strips)).collect()
+}
+
+fn reach_over(contour: &Contour, region: &Strips) -> Contour {
+    let mut edges = Vec::with_capacity(contour.points.len());
+    contour.edges().for_each(|(a, b)| split_shared(a, b, region, SPLITS, &mut edges));
+    let mut points = Vec::with_capacity(edges.len());
+    for (i, &(at, out)) in edges.iter().enumerate() {
+        let (_, before) = edges[if i == 0 { edges.len() - 1 } else { i - 1 }];
+        match (before, out) {
+            (None, None) => points.push(at),
+            (Some(before), None) => points.extend([at + before * BRIDGE_MM, at]),
+            (None, Some(out)) => points.extend([at, at + out * BRIDGE_MM]),
+            (Some(before), Some(out)) => points.push(at + (before + out).normalize_or(out) * BRIDGE_MM),
+        }
+    }
+    Contour::new(points)
+}
+
+/// How often an edge that shares its border in part is halved: a 4,000th of its length is exact
+/// enough for a strip of [`BRIDGE_MM`].
+const SPLITS: u32 = 12;
+
+/// Appends the edge from a to b as start points with the outward normal where `region` lies across
+/// it, and `None` where nothing does.
+fn split_shared(a: DVec2, b: DVec2, region: &Strips, splits: u32, edges: &mut Vec<(DVec2, Option<DVec2>)>) {
+    let along = (b - a).normalize_or_zero();
+    let out = dvec2(along.y, -along.x);
+    let beyond = |share: f64| region.contain(a.lerp(b, share) + out * BRIDGE_MM);
+    let across = [beyond(0.01), beyond(0.5), beyond(0.99)];
+    if across == [true; 3] || across == [false; 3] || splits == 0 {
+        return edges.push((a, across[1].then_some(out)));
+    }
+    let middle = a.lerp(b, 0.5);
+    split_shared(a, middle, region, splits - 1, edges);
+    split_shared(middle, b, region, splits - 1, edges);
 }
 
 /// The area without slits and slivers.
