@@ -15,13 +15,6 @@ const THIN_MM: f64 = 3e-4;
 /// counts as a structure of its own (129 instead of 3 in one trial).
 const BRIDGE_MM: f64 = 3e-4;
 
-/// Dents in the border of a support region that are shallower than this share of the layer height
-/// are filled: they cost time in every layer below and hold next to nothing.
-const DENT_SHARE: f64 = 0.025;
-
-/// At most this many neighbouring points go with one dent.
-const DENT_POINTS: usize = 32;
-
 /// What the descent needs to know about the print.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VolumeRules {
@@ -65,8 +58,6 @@ pub struct Descent {
     /// S_k of the layer entered last, and its components.
     region: PolygonSet,
     parts: Vec<Part>,
-    /// area(S_k), before dents are filled.
-    region_mm2: f64,
     structures: Structures,
     support_mm3: f64,
 }
@@ -94,7 +85,6 @@ impl Descent {
             area: PolygonSet::EMPTY,
             region: PolygonSet::EMPTY,
             parts: Vec::new(),
-            region_mm2: 0.0,
             structures: Structures::default(),
             support_mm3: 0.0,
         }
@@ -113,7 +103,7 @@ impl Descent {
             }
             self.area = area;
         }
-        self.support_mm3 += self.region_mm2 * self.rules.layer_height * f64::from(layers);
+        self.support_mm3 += self.region.area() * self.rules.layer_height * f64::from(layers);
     }
 
     fn replace_region(&mut self, area: &PolygonSet, esf: &PolygonSet) {
@@ -121,9 +111,7 @@ impl Descent {
         held.extend_from_slice(self.region.contours());
         // These contours overlap: one operand of the difference, which counts what is wound around.
         let held = PolygonSet::canonical(held);
-        let exact = without_slivers(held.difference(area));
-        self.region_mm2 = exact.area();
-        let region = filled(exact, DENT_SHARE * self.rules.layer_height);
+        let region = without_slivers(held.difference(area));
         if !esf.is_empty() || region != self.region {
             let islands = Island::all_of(&region).into_iter();
             let parts = islands.map(|island| Part { node: self.structures.add(&island), island });
@@ -240,32 +228,6 @@ fn without_slivers(area: PolygonSet) -> PolygonSet {
         return area;
     }
     PolygonSet::canonical(area.into_contours().into_iter().filter(|c| !thin(c)).collect())
-}
-
-/// The area with dents up to `depth` mm filled.
-fn filled(area: PolygonSet, depth: f64) -> PolygonSet {
-    PolygonSet::canonical(area.contours().iter().map(|c| fill_dents(c, depth)).collect())
-}
-
-/// Drops runs of points that lie to the left of the line past them, where the area is, by at most
-/// `depth` mm. The area only grows, so no gap opens towards what the next layer adds beside it.
-fn fill_dents(contour: &Contour, depth: f64) -> Contour {
-    let points = &contour.points;
-    let mut kept: Vec<DVec2> = Vec::with_capacity(points.len());
-    let mut at = 0;
-    while at < points.len() {
-        kept.push(points[at]);
-        let reach = (at + 2..points.len().min(at + DENT_POINTS))
-            .take_while(|&end| is_dent(points[at], &points[at + 1..end], points[end], depth));
-        at = reach.last().unwrap_or(at + 1);
-    }
-    if kept.len() < 3 { contour.clone() } else { Contour::new(kept) }
-}
-
-fn is_dent(from: DVec2, between: &[DVec2], to: DVec2, depth: f64) -> bool {
-    let along = to - from;
-    let length = along.length();
-    between.iter().all(|&p| (0.0..=depth * length).contains(&along.perp_dot(p - from)))
 }
 
 /// Union-find over the components of all layers; a set is one support structure.
