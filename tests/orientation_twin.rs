@@ -207,9 +207,9 @@ fn models() -> Vec<(&'static str, Mesh)> {
 }
 
 /// Random turns by seed. The twin cannot see that an overhang thinner than a pixel hangs together
-/// with the strip beside it, the engine can; of the seeds 1 to 6 this leaves one model in each of 3, 4
-/// and 6 (hollow, ball, ball) with 4 to 10 % less support on pixels. With pixels half as wide the
-/// twin's volume moves towards the engine's.
+/// with the strip beside it, the engine can. Of the seeds 1 to 6 this leaves one model in each of 3, 4
+/// and 6: hollow with 36 % less support on pixels, ball with 4 % less in two turns. With pixels of a
+/// 128th of the layer hollow agrees again, 1831.3 mm3 on both sides.
 const SEEDS: [u64; 3] = [1, 2, 5];
 
 #[test]

@@ -41,6 +41,9 @@ pub struct Side {
 /// the least support are taken, `count` at most. Sides within [`MERGE_DEG`] of an axis are left
 /// out: the six directions have them.
 pub fn directions(mesh: &Mesh, count: usize) -> Vec<Direction> {
+    if count == 0 {
+        return Vec::new();
+    }
     let is_axis = |up: DVec3| six().iter().any(|d| DVec3::from(d.up).dot(up) > MERGE_COS);
     let mut sides = merged(triangles(mesh));
     sides.truncate(LARGEST_KEPT);

@@ -3,19 +3,17 @@
 //! Source: [Karim] equations (9) to (12). A_k is the part's section in layer k, S_k the support
 //! region, both seen from above; layers are counted from the bed.
 
-use crate::polygon::{Contour, DVec2, PolygonSet};
-use crate::region::overhang::{self, Island};
+use crate::polygon::{Contour, DVec2, Polygon, PolygonSet, dvec2};
+use crate::region::overhang::{self, Island, Strips};
 
 /// Slits and slivers of a support region that are thinner than this, mm, are rounding artefacts of
 /// borders that ran along each other: three grid steps.
 const THIN_MM: f64 = 3e-4;
 
-/// Dents in the border of a support region that are shallower than this share of the layer height
-/// are filled: they cost time in every layer below and hold next to nothing.
-const DENT_SHARE: f64 = 0.025;
-
-/// At most this many neighbouring points go with one dent.
-const DENT_POINTS: usize = 32;
+/// How far ESF_k reaches over its border with S_(k+1), mm. Both run along A_(k+1) there and are
+/// rounded each in its own way. Without this a slit may stay between them, and each layer's piece
+/// counts as a structure of its own (129 instead of 3 in one trial).
+const BRIDGE_MM: f64 = 3e-4;
 
 /// What the descent needs to know about the print.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,6 +69,12 @@ struct Part {
     node: usize,
 }
 
+impl Part {
+    fn overlap(&self, other: &Island) -> PolygonSet {
+        self.island.polygon.clone().into_set().intersection(&other.polygon.clone().into_set())
+    }
+}
+
 impl Descent {
     /// Above the topmost layer.
     pub fn new(rules: VolumeRules) -> Self {
@@ -94,46 +98,61 @@ impl Descent {
     pub fn enter(&mut self, area: PolygonSet, layers: u32) {
         if area != self.area {
             let esf = overhang::externally_supported(&self.area, &area, self.step);
-            let carried = self.region.difference(&area);
-            if !esf.is_empty() || carried != self.region {
-                self.replace_region(carried, &esf);
+            if !esf.is_empty() || !self.region.is_empty() {
+                self.replace_region(&area, &esf);
             }
             self.area = area;
         }
         self.support_mm3 += self.region.area() * self.rules.layer_height * f64::from(layers);
     }
 
-    /// Sets S_k = `carried` u `esf` and joins its components to the structures above.
-    ///
-    /// `esf` lies below the part and S_(k+1) does not, so `carried` is all that S_k and S_(k+1)
-    /// share: a piece of it ties the component above that it came from to the one it lies in now.
-    fn replace_region(&mut self, carried: PolygonSet, esf: &PolygonSet) {
-        let region = self.without_dents(carried.union(esf));
-        let islands = Island::all_of(&region);
-        let parts: Vec<Part> =
-            islands.into_iter().map(|island| Part { node: self.structures.add(&island), island }).collect();
-        if let ([above], [below], false) = (&self.parts[..], &parts[..], carried.is_empty()) {
-            self.structures.join(above.node, below.node);
-        } else {
-            for piece in carried.islands() {
-                let point = overhang::inner_point(&piece);
-                let holder = |parts: &[Part]| {
-                    parts.iter().find(|part| point.is_some_and(|p| part.island.contains(p))).map(|p| p.node)
-                };
-                if let (Some(above), Some(below)) = (holder(&self.parts), holder(&parts)) {
-                    self.structures.join(above, below);
-                }
-            }
+    fn replace_region(&mut self, area: &PolygonSet, esf: &PolygonSet) {
+        let mut held = reaching_over(esf, &self.region);
+        held.extend_from_slice(self.region.contours());
+        // These contours overlap: one operand of the difference, which counts what is wound around.
+        let held = PolygonSet::canonical(held);
+        let region = without_slivers(held.difference(area));
+        if !esf.is_empty() || region != self.region {
+            let islands = Island::all_of(&region).into_iter();
+            let parts = islands.map(|island| Part { node: self.structures.add(&island), island });
+            let parts: Vec<Part> = parts.collect();
+            self.join_parts(&parts, area);
+            (self.region, self.parts) = (region, parts);
         }
-        (self.region, self.parts) = (region, parts);
     }
 
-    /// The region without slits and slivers, shallow dents filled.
-    fn without_dents(&self, region: PolygonSet) -> PolygonSet {
-        let depth = DENT_SHARE * self.rules.layer_height;
-        let thin = |c: &Contour| 2.0 * c.signed_area().abs() < THIN_MM * c.length();
-        let kept = region.into_contours().into_iter().filter(|c| !thin(c));
-        PolygonSet::canonical(kept.map(|c| fill_dents(&c, depth)).collect())
+    /// Joins the components of S_k, which are `parts`, to those of S_(k+1) that they overlap.
+    ///
+    /// A point inside one that lies in the other settles it for most; the overlap itself is made
+    /// for those whose point lies in the part above or below.
+    fn join_parts(&mut self, parts: &[Part], area: &PolygonSet) {
+        let above = std::mem::take(&mut self.parts);
+        for part in parts {
+            let shared = |other: &Part| part.overlap(&other.island).islands();
+            self.join_to(part, &above, shared);
+        }
+        for part in &above {
+            // Nothing of S_k lies in A_k.
+            let shared = |_: &Part| part.island.polygon.clone().into_set().difference(area).islands();
+            self.join_to(part, parts, shared);
+        }
+    }
+
+    /// Joins `part` to the one of `others` that holds its inner point, else to those that hold an
+    /// inner point of what they share.
+    fn join_to(&mut self, part: &Part, others: &[Part], shared: impl Fn(&Part) -> Vec<Polygon>) {
+        let holds = |point: DVec2| move |other: &&Part| other.island.contains(point);
+        if let Some(other) =
+            overhang::inner_point(&part.island.polygon).and_then(|p| others.iter().find(holds(p)))
+        {
+            return self.structures.join(part.node, other.node);
+        }
+        for other in others.iter().filter(|other| other.island.bounds.is_near(part.island.bounds, 0.0)) {
+            let points = shared(other).into_iter().filter_map(|piece| overhang::inner_point(&piece));
+            if points.into_iter().any(|p| other.island.contains(p)) {
+                self.structures.join(part.node, other.node);
+            }
+        }
     }
 
     /// S_k of the layer entered last.
@@ -157,25 +176,58 @@ impl Descent {
     }
 }
 
-/// Drops runs of points that lie to the left of the line past them, where the area is, by at most
-/// `depth` mm. The area only grows, so no gap opens towards what the next layer adds beside it.
-fn fill_dents(contour: &Contour, depth: f64) -> Contour {
-    let points = &contour.points;
-    let mut kept: Vec<DVec2> = Vec::with_capacity(points.len());
-    let mut at = 0;
-    while at < points.len() {
-        kept.push(points[at]);
-        let reach = (at + 2..points.len().min(at + DENT_POINTS))
-            .take_while(|&end| is_dent(points[at], &points[at + 1..end], points[end], depth));
-        at = reach.last().unwrap_or(at + 1);
+/// `esf` reaching over the slit to `region` by [`BRIDGE_MM`] where the two share a border; free
+/// borders stay where they are.
+fn reaching_over(esf: &PolygonSet, region: &PolygonSet) -> Vec<Contour> {
+    if region.is_empty() || esf.is_empty() {
+        return esf.contours().to_vec();
     }
-    if kept.len() < 3 { contour.clone() } else { Contour::new(kept) }
+    let strips = Strips::new(region);
+    esf.contours().iter().map(|contour| reach_over(contour, &strips)).collect()
 }
 
-fn is_dent(from: DVec2, between: &[DVec2], to: DVec2, depth: f64) -> bool {
-    let along = to - from;
-    let length = along.length();
-    between.iter().all(|&p| (0.0..=depth * length).contains(&along.perp_dot(p - from)))
+fn reach_over(contour: &Contour, region: &Strips) -> Contour {
+    let mut edges = Vec::with_capacity(contour.points.len());
+    contour.edges().for_each(|(a, b)| split_shared(a, b, region, SPLITS, &mut edges));
+    let mut points = Vec::with_capacity(edges.len());
+    for (i, &(at, out)) in edges.iter().enumerate() {
+        let (_, before) = edges[if i == 0 { edges.len() - 1 } else { i - 1 }];
+        match (before, out) {
+            (None, None) => points.push(at),
+            (Some(before), None) => points.extend([at + before * BRIDGE_MM, at]),
+            (None, Some(out)) => points.extend([at, at + out * BRIDGE_MM]),
+            (Some(before), Some(out)) => points.push(at + (before + out).normalize_or(out) * BRIDGE_MM),
+        }
+    }
+    Contour::new(points)
+}
+
+/// How often an edge that shares its border in part is halved: a 4,000th of its length is exact
+/// enough for a strip of [`BRIDGE_MM`].
+const SPLITS: u32 = 12;
+
+/// Appends the edge from a to b as start points with the outward normal where `region` lies across
+/// it, and `None` where nothing does.
+fn split_shared(a: DVec2, b: DVec2, region: &Strips, splits: u32, edges: &mut Vec<(DVec2, Option<DVec2>)>) {
+    let along = (b - a).normalize_or_zero();
+    let out = dvec2(along.y, -along.x);
+    let beyond = |share: f64| region.contain(a.lerp(b, share) + out * BRIDGE_MM);
+    let across = [beyond(0.01), beyond(0.5), beyond(0.99)];
+    if across == [true; 3] || across == [false; 3] || splits == 0 {
+        return edges.push((a, across[1].then_some(out)));
+    }
+    let middle = a.lerp(b, 0.5);
+    split_shared(a, middle, region, splits - 1, edges);
+    split_shared(middle, b, region, splits - 1, edges);
+}
+
+/// The area without slits and slivers.
+fn without_slivers(area: PolygonSet) -> PolygonSet {
+    let thin = |c: &Contour| 2.0 * c.signed_area().abs() < THIN_MM * c.length();
+    if !area.contours().iter().any(thin) {
+        return area;
+    }
+    PolygonSet::canonical(area.into_contours().into_iter().filter(|c| !thin(c)).collect())
 }
 
 /// Union-find over the components of all layers; a set is one support structure.
