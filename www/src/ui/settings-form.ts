@@ -12,6 +12,8 @@ const basic = [
   'infill.density',
   'infill.pattern',
   'adhesion.kind',
+  'support.method',
+  'orientation.mode',
   'filament.nozzle_temp',
   'filament.bed_temp',
 ];
