@@ -1,4 +1,4 @@
-//! Plates for a part of 100,000 triangles at spacing 4 (issue 5): under 1 s of single-core wasm,
+//! Plates for a part of 100,000 triangles at spacing 4: under 1 s of single-core wasm,
 //! which is about 0.6 s natively.
 //!
 //! Measured 2026-11-22 on a shared Xeon (2 cores, busy), best of 5, everything of `plan_supports`,

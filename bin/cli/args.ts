@@ -12,6 +12,13 @@ export interface SettingWords {
   readonly sets: readonly string[];
 }
 
+/** A model whose possibilities are weighed against each other. */
+export interface Weighing {
+  readonly model: string;
+  readonly settings: SettingWords;
+  readonly report: string | undefined;
+}
+
 export type Command =
   | {
       readonly kind: 'slice';
@@ -29,12 +36,8 @@ export type Command =
       readonly out: string;
       readonly settings: SettingWords;
     }
-  | {
-      readonly kind: 'orient' | 'compare';
-      readonly model: string;
-      readonly settings: SettingWords;
-      readonly report: string | undefined;
-    }
+  | ({ readonly kind: 'orient' } & Weighing)
+  | ({ readonly kind: 'compare' } & Weighing)
   | { readonly kind: 'settings'; readonly settings: SettingWords; readonly schema: boolean }
   | { readonly kind: 'help' }
   | { readonly kind: 'version' };

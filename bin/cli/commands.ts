@@ -2,7 +2,7 @@
 import { readFileSync, realpathSync } from 'node:fs';
 import { partsOf } from '../../www/src/slicer/gcode.ts';
 import { Pool } from '../../www/src/slicer/pool.ts';
-import { type Command, type SettingWords, UsageError } from './args.ts';
+import { type Command, type SettingWords, UsageError, type Weighing } from './args.ts';
 import { openModel } from './disk-file.ts';
 import { FileError, reasonOf } from './errors.ts';
 import { inWords } from './inspection.ts';
@@ -60,17 +60,17 @@ export async function draw({ model, what, out, settings }: Of<'draw'>): Promise<
   });
 }
 
-export function orient(command: Of<'orient'>): Promise<void> {
+export function orient(command: Weighing): Promise<void> {
   return weigh(command, (pool, all) => pool.orient(all), directionTable);
 }
 
-export function compare(command: Of<'compare'>): Promise<void> {
+export function compare(command: Weighing): Promise<void> {
   return weigh(command, (pool, all) => pool.compare(all), adhesionTable);
 }
 
 /** Opens the model, asks the engine to weigh possibilities, and shows them as a table. */
 async function weigh(
-  { model, settings: words, report }: Of<'orient' | 'compare'>,
+  { model, settings: words, report }: Weighing,
   ask: (pool: Pool, settings: string) => Promise<string>,
   table: (figures: string) => string,
 ): Promise<void> {
