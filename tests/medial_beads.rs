@@ -281,9 +281,11 @@ proptest! {
         let options = ThinFill::default();
         let beads = fill_thin(&shape, &options);
         assert_sane(&beads, &options);
-        // Crossings at flat angles leave wide places; the rest is filled.
-        let filled = plastic(&beads) / (shape.area() - beads.left_mm2).max(1e-9);
-        prop_assert!((0.85..1.15).contains(&filled), "{filled}");
+        // Crossings at flat angles leave wide places; the rest is filled, up to the round ends.
+        let wanted = shape.area() - beads.left_mm2;
+        let ends: f64 = beads.paths.iter().map(|p| PI / 4.0 * p.width.at(0).max(p.width.at(p.points.len() - 1)).powi(2)).sum();
+        let found = plastic(&beads);
+        prop_assert!(found <= 1.15 * wanted && found >= 0.85 * wanted - ends, "{found} of {wanted}");
         prop_assert_eq!(fill_thin(&shape, &options), beads);
     }
 
