@@ -38,7 +38,7 @@ export function fakeLanes({
         return { kind: 'open', inspections: request.sources.map(({ name }) => name), parse_ms: 1 };
       case 'begin':
         added = new Set();
-        return { kind: 'begin' };
+        return { kind: 'begin', partLayers: layers };
       case 'share':
         return { kind: 'share', share: encoder.encode(JSON.stringify(request.range)) };
       case 'slice':

@@ -105,12 +105,17 @@ test('a model that can not be read says so for each use', async () => {
 });
 
 test('the queue hands out each layer once', () => {
-  const queue = new LayerQueue(30);
-  expect([queue.take(24), queue.take(8), queue.take(8)]).toEqual([
-    { first: 0, last: 24 },
-    { first: 24, last: 30 },
-    undefined,
-  ]);
+  const queue = new LayerQueue(300);
+  const ranges: { first: number; last: number }[] = [];
+  for (let range = queue.take(24); range !== undefined; range = queue.take(24)) ranges.push(range);
+  expect(ranges[0]).toEqual({ first: 0, last: 24 });
+  expect(ranges.at(-1)?.last).toBe(300);
+  ranges.slice(1).forEach((range, k) => {
+    expect(range.first).toBe(ranges[k]?.last);
+  });
+  const sizes = ranges.map(({ first, last }) => last - first);
+  expect(sizes).toEqual(sizes.toSorted((a, b) => b - a));
+  expect(sizes.at(-1)).toBeLessThanOrEqual(4);
   const stopped = new LayerQueue(30);
   stopped.stop();
   expect(stopped.take(1)).toBeUndefined();

@@ -56,7 +56,8 @@ export type LeadRequest =
 export type LeadReply =
   | { readonly kind: 'open'; readonly inspections: readonly string[]; readonly parse_ms: number }
   | { readonly kind: 'settings'; readonly settings: string }
-  | { readonly kind: 'begin' }
+  /** Layers of the part alone; what is laid below it adds to them when the job is prepared. */
+  | { readonly kind: 'begin'; readonly partLayers: number }
   | { readonly kind: 'prepare'; readonly layers: number }
   | { readonly kind: 'share'; readonly share: Uint8Array }
   | ({ readonly kind: 'slice' } & SlicedRange)

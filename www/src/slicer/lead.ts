@@ -27,8 +27,7 @@ export class Lead {
       case 'settings':
         return { kind: 'settings', settings: this.#engine.resolve_settings([...request.files], [...request.sets]) };
       case 'begin':
-        this.#begin(request.settings);
-        return { kind: 'begin' };
+        return { kind: 'begin', partLayers: this.#begin(request.settings) };
       case 'prepare':
         this.#current().prepare();
         return { kind: 'prepare', layers: this.#current().layer_count() };
@@ -87,13 +86,14 @@ export class Lead {
     }
   }
 
-  #begin(settings: string): void {
+  #begin(settings: string): number {
     this.#end();
     this.#job = new this.#engine.Job(
       this.#models.map((model) => model.clone_model()),
       this.#names,
       settings,
     );
+    return this.#job.layer_count();
   }
 
   #slice(first: number, last: number): SlicedRange {

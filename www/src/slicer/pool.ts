@@ -37,7 +37,11 @@ export interface Opened {
 /** Layers in a range for a helper: its share is small beside its work, and many ranges even out the lanes. */
 const HELPER_LAYERS = 24;
 /** The lead takes fewer, so that a helper that waits for its share does not wait long. */
-const LEAD_LAYERS = 8;
+const LEAD_LAYERS = 16;
+/** Towards the end ranges shrink to this share of what is left, so that no engine works on long alone. */
+const LAST_SHARE = 1 / 6;
+/** But not below this: every range cuts its neighbours' layers as well. */
+const SMALLEST_RANGE = 4;
 /** Ranges under way for one helper, so that it does not stand still while the lead is busy. */
 const RANGES_PER_HELPER = 2;
 
@@ -145,11 +149,12 @@ export class Pool {
     const lead = this.#someLead();
     await this.ready();
     progress({ stage: 'prepare', done: 0, total: 0 });
-    await lead.call({ kind: 'begin', settings });
-    const { layers } = await lead.call({ kind: 'prepare' });
-    const helpers = this.#startHelpers(layers);
+    const { partLayers } = await lead.call({ kind: 'begin', settings });
+    const helpers = this.#startHelpers(partLayers);
+    let layers: number;
     let texts: Uint8Array<ArrayBuffer>[];
     try {
+      ({ layers } = await lead.call({ kind: 'prepare' }));
       texts = await sliceLayers(lead, helpers, layers, progress);
     } finally {
       this.#closeHelpers(helpers);
@@ -160,7 +165,7 @@ export class Pool {
     return { layers: texts, joined };
   }
 
-  /** Starts the engines that a job of so many layers can use. */
+  /** Starts the engines that a job of so many layers can use; they start while the lead prepares. */
   #startHelpers(layers: number): readonly HelperLane[] {
     const useful = Math.ceil(layers / HELPER_LAYERS) - 1;
     const count = Math.max(0, Math.min(this.#workers - 1, useful));
@@ -221,11 +226,12 @@ export class LayerQueue {
     this.#total = total;
   }
 
-  /** The next layers, `count` or what is left; undefined when there are none. */
+  /** The next layers, `count` or fewer towards the end; undefined when there are none. */
   take(count: number): Range | undefined {
     if (this.#next >= this.#total) return undefined;
     const first = this.#next;
-    this.#next = Math.min(first + count, this.#total);
+    const fair = Math.max(SMALLEST_RANGE, Math.ceil((this.#total - first) * LAST_SHARE));
+    this.#next = Math.min(first + Math.min(count, fair), this.#total);
     return { first, last: this.#next };
   }
 
