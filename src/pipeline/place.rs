@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use glam::{DMat4, DVec3, Vec3, dvec3};
+use glam::{DMat4, DVec3, dvec3};
 
 use crate::gcode::PrinterOptions;
 use crate::mesh::{Box3, Mesh};
@@ -55,14 +55,10 @@ pub fn place_on_bed(models: &[&Mesh], printer: &PrinterOptions) -> Result<Placed
     let mut mesh = Mesh::default();
     for (model, placement) in models.iter().zip(&placements) {
         let by = placement.w_axis.truncate();
-        let vertices = model.vertices.iter().map(|v| to_f32(v.as_dvec3() + by)).collect();
+        let vertices = model.vertices.iter().map(|v| (v.as_dvec3() + by).as_vec3()).collect();
         mesh.append(&Mesh { vertices, triangles: model.triangles.clone() });
     }
     Ok(Placed { mesh, placements })
-}
-
-fn to_f32(v: DVec3) -> Vec3 {
-    v.as_vec3()
 }
 
 fn size_of(b: &Box3) -> DVec3 {
@@ -88,6 +84,7 @@ fn lay_out_rows(boxes: &[Box3], width: f64) -> Vec<DVec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::Vec3;
 
     fn block(x: f32, y: f32, z: f32) -> Mesh {
         let vertices = vec![Vec3::new(-1.0, 2.0, 5.0), Vec3::new(x - 1.0, y + 2.0, z + 5.0)];

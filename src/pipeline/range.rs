@@ -50,17 +50,8 @@ pub struct Share {
 impl Share {
     /// The plan with those triangles of the mesh, in mesh order, that its planes cross.
     pub fn new(plan: RangePlan, mesh: &Mesh, triangles: &[u32]) -> Share {
-        let mut new_index = vec![u32::MAX; mesh.vertices.len()];
-        let mut vertices = Vec::new();
-        let mut renumber = |old: u32| {
-            let place = &mut new_index[old as usize];
-            if *place == u32::MAX {
-                *place = vertices.len() as u32;
-                vertices.push(mesh.vertices[old as usize].to_array());
-            }
-            *place
-        };
-        let triangles = triangles.iter().map(|&t| mesh.triangles[t as usize].map(&mut renumber)).collect();
+        let Mesh { vertices, triangles } = mesh.subset(triangles.iter().map(|&t| t as usize));
+        let vertices = vertices.iter().map(|v| v.to_array()).collect();
         Share { plan, vertices, triangles }
     }
 
