@@ -6,11 +6,11 @@ import { at, root } from './places.mjs';
 
 /**
  * Runs `work` unless the contents of `inputs` (files and folders, relative to the checkout) are those of
- * the last run and every one of `outputs` is there. Resolves to whether it ran.
+ * the last run, and so is `variant`, and every one of `outputs` is there. Resolves to whether it ran.
  */
-export async function step(name, { inputs, outputs, ignore = [] }, work) {
+export async function step(name, { inputs, outputs, ignore = [], variant = '' }, work) {
   const stamp = at('dist', '.steps', name);
-  const now = digest(inputs, ignore);
+  const now = digest(inputs, ignore) + variant;
   const fresh = existsSync(stamp) && readFileSync(stamp, 'utf8') === now;
   if (fresh && outputs.every((it) => existsSync(at(it)))) return false;
   console.log(`build: ${name}`);
