@@ -3,7 +3,18 @@ import { writeFileSync } from 'node:fs';
 import AxeBuilder from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import { binaryStl, box } from '../node/shapes.ts';
-import { downloadButton, expect, layerSlider, openFile, picture, ready, settled, sliceButton, test } from './page.ts';
+import {
+  downloadButton,
+  expect,
+  layerSlider,
+  openFile,
+  picture,
+  ready,
+  settled,
+  sliceButton,
+  stepTab,
+  test,
+} from './page.ts';
 
 async function noFindings(page: Page, state: string): Promise<void> {
   const { violations } = await new AxeBuilder({ page }).analyze();
@@ -15,15 +26,17 @@ for (const colorScheme of ['light', 'dark'] as const) {
   test(`axe finds nothing, ${colorScheme}`, async ({ page }, info) => {
     await page.emulateMedia({ colorScheme });
     await ready(page);
-    await noFindings(page, 'layers');
+    await noFindings(page, 'prepare');
+    await stepTab(page, 'Preview').click();
+    await expect(layerSlider(page)).toBeVisible();
+    await noFindings(page, 'preview');
+    await stepTab(page, 'Prepare').click();
     await page.getByText('All settings').click();
     for (const group of await page.locator('details.group > summary').all()) await group.click();
     await page.getByLabel('Walls', { exact: true }).first().fill('4');
     await page.getByLabel('Layer height').first().fill('90');
     await page.getByLabel('Layer height').first().press('Tab');
     await noFindings(page, 'all settings, a fault, a stale result');
-    await page.getByRole('button', { name: 'Model', exact: true }).click();
-    await noFindings(page, 'model');
     const cut = info.outputPath('cut.stl');
     writeFileSync(cut, binaryStl(box(20, 20, 20), 120));
     await openFile(page, cut);
@@ -79,6 +92,26 @@ test('the whole way by keyboard', async ({ page }) => {
   await reach(/^Layer$/);
   await page.keyboard.press('Home');
   await expect(layerSlider(page)).toHaveValue('1');
+
+  await reach(/^Preview$/);
+  await page.keyboard.press('ArrowLeft');
+  await expect(stepTab(page, 'Prepare')).toBeFocused();
+  await expect(page.getByRole('tabpanel', { name: 'Prepare' })).toBeVisible();
+});
+
+test('language and colours are chosen, and kept', async ({ page }) => {
+  await ready(page);
+  await page.getByLabel('Language').selectOption('de');
+  await expect(page.getByRole('button', { name: 'G-Code herunterladen' })).toBeVisible();
+  await expect(page.locator('html')).toHaveAttribute('lang', 'de');
+  await page.getByRole('switch', { name: 'Dunkle Farben' }).click();
+  const ground = () => page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
+  expect(await ground()).toBe('rgb(22, 25, 23)');
+  await page.reload();
+  await expect(page.getByRole('button', { name: 'G-Code herunterladen' })).toBeEnabled();
+  expect(await ground()).toBe('rgb(22, 25, 23)');
+  await page.getByLabel('Sprache').selectOption('zh');
+  await expect(page.getByRole('tab', { name: '准备' })).toBeVisible();
 });
 
 test('on a phone nothing is wider than the screen, and slicing works', async ({ browser, baseURL }) => {

@@ -29,6 +29,7 @@ export const sliceButton = (page: Page) => page.getByRole('button', { name: 'Sli
 export const cancelButton = (page: Page) => page.getByRole('button', { name: 'Cancel' });
 export const downloadButton = (page: Page) => page.getByRole('button', { name: 'Download G-code' });
 export const layerSlider = (page: Page) => page.getByRole('slider', { name: 'Layer' });
+export const stepTab = (page: Page, name: 'Prepare' | 'Preview') => page.getByRole('tab', { name, exact: true });
 export const picture = (page: Page) => page.getByRole('application');
 
 /** The page with its sample sliced, as a visitor finds it. */

@@ -14,6 +14,7 @@ import {
   ready,
   settled,
   sliceButton,
+  stepTab,
   test,
 } from './page.ts';
 
@@ -103,11 +104,13 @@ test('cancel stops the job at once, keeps the model, and the page goes on', asyn
   await page.getByLabel('Layer height').first().press('Tab');
   await sliceButton(page).click();
   await expect(downloadButton(page)).toBeEnabled();
+  await stepTab(page, 'Prepare').click();
   await expect(page.getByText('bunny.stl', { exact: true })).toBeVisible();
 });
 
 test('zoom and pan change the picture, and Show all brings it back', async ({ page }) => {
   await ready(page);
+  await stepTab(page, 'Preview').click();
   const all = await settled(page);
   await page.getByRole('button', { name: 'Zoom in' }).click();
   const closer = await settled(page);
@@ -120,7 +123,7 @@ test('zoom and pan change the picture, and Show all brings it back', async ({ pa
   await page.mouse.wheel(0, -300);
   await page.getByRole('button', { name: 'Show all' }).click();
   await page.mouse.move(0, 0);
-  await page.getByRole('button', { name: 'Layers' }).focus();
+  await stepTab(page, 'Preview').focus();
   expect((await settled(page)).length).toBeGreaterThan(0);
 });
 

@@ -2,7 +2,6 @@
 import { expect, test } from 'vitest';
 import { inWords } from '../../bin/cli/inspection.ts';
 import { bar } from '../../bin/cli/progress.ts';
-import { en } from '../../www/src/i18n/en.ts';
 import { heightOf } from '../../www/src/slicer/gcode.ts';
 import { namedModel } from '../../www/src/source.ts';
 import { shareOf } from '../../www/src/state.ts';
@@ -55,8 +54,4 @@ test('only a model beside the page can be named in its address', () => {
   ]) {
     expect(() => namedModel(`${page}?model=${encodeURIComponent(bad)}`)).toThrow('another site');
   }
-});
-
-test('durations as a person says them', () => {
-  expect([42, 90, 3600, 3900].map(en.figures.duration)).toEqual(['42 s', '2 min', '1 h', '1 h 5 min']);
 });

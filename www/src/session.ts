@@ -1,13 +1,13 @@
 // The flow of work, as plain functions over the state: open, slice, cancel, show, download.
 import type { Report } from './generated/report.ts';
-import { en } from './i18n/en.ts';
+import { t } from './i18n/text.ts';
 import type { ModelSource } from './messages.ts';
 import { asSettings } from './settings/changes.ts';
 import { EngineError, isCancel } from './slicer/errors.ts';
 import { partsOf } from './slicer/gcode.ts';
 import type { Pool } from './slicer/pool.ts';
 import { fetched, lastPart, namedModel } from './source.ts';
-import type { ModelFacts, Problem, Remark, State, Store } from './state.ts';
+import type { ModelFacts, Problem, Remark, State, Step, Store } from './state.ts';
 
 export class Session {
   readonly #store: Store;
@@ -25,7 +25,7 @@ export class Session {
       const named = namedModel(address);
       if (named !== undefined) return await this.open(await fetched(named, lastPart(named)));
       await this.open(await fetched('sample.stl', 'sample.stl'));
-      await this.slice();
+      await this.slice('prepare');
     } catch (error) {
       this.#store.update({ model: { kind: 'failed', problem: problemOf(error) } });
     }
@@ -35,7 +35,12 @@ export class Session {
   async open(source: ModelSource): Promise<void> {
     this.#job?.abort();
     this.#job = undefined;
-    this.#store.update({ model: { kind: 'reading', source }, job: { kind: 'idle' }, result: undefined, show: 'model' });
+    this.#store.update({
+      model: { kind: 'reading', source },
+      job: { kind: 'idle' },
+      result: undefined,
+      step: 'prepare',
+    });
     const isCurrent = (): boolean => {
       const { model } = this.#store.state;
       return model.kind === 'reading' && model.source === source;
@@ -48,8 +53,8 @@ export class Session {
     }
   }
 
-  /** Slices the open model with the settings of the form. */
-  async slice(): Promise<void> {
+  /** Slices the open model with the settings of the form, and goes on to `next`. */
+  async slice(next: Step = 'preview'): Promise<void> {
     if (this.#store.state.model.kind !== 'open') return;
     this.#job?.abort();
     const job = new AbortController();
@@ -59,7 +64,8 @@ export class Session {
     };
     update({ job: { kind: 'running', progress: { stage: 'read', done: 0, total: 0 } } });
     try {
-      update(await this.#sliced(job.signal, (progress) => update({ job: { kind: 'running', progress } })));
+      const sliced = await this.#sliced(job.signal, (progress) => update({ job: { kind: 'running', progress } }));
+      update({ ...sliced, step: next });
     } catch (error) {
       update({ job: isCancel(error) ? { kind: 'cancelled' } : { kind: 'failed', problem: problemOf(error) } });
     } finally {
@@ -88,7 +94,7 @@ export class Session {
     const { result } = this.#store.state;
     if (result === undefined) return;
     const last = result.gcode.layers.length - 1;
-    this.#store.update({ show: 'layers', layer: Math.min(Math.max(layer, 0), last) });
+    this.#store.update({ step: 'preview', layer: Math.min(Math.max(layer, 0), last) });
   }
 
   async #sliced(
@@ -99,12 +105,12 @@ export class Session {
     const settings = await this.#pool.settings([asSettings(changes)], []);
     const gcode = await this.#pool.slice({ settings, signal, progress });
     const report = JSON.parse(gcode.joined.report) as Report;
-    return { job: { kind: 'done' }, result: { gcode, report, settings, changes }, show: 'layers', layer: 0 };
+    return { job: { kind: 'done' }, result: { gcode, report, settings, changes }, layer: 0 };
   }
 }
 
 export function problemOf(error: unknown): Problem {
-  const known = error instanceof EngineError || (error instanceof Error && error.name in en.problem);
+  const known = error instanceof EngineError || (error instanceof Error && error.name in t.problem);
   return {
     name: known ? (error as Error).name : 'InternalError',
     message: error instanceof Error ? error.message : String(error),

@@ -1,5 +1,5 @@
 // Where a model comes from: a file the user gives, the sample, or one beside the page (`?model=`).
-import { en } from './i18n/en.ts';
+import { t } from './i18n/text.ts';
 import type { ModelSource } from './messages.ts';
 
 export class SourceError extends Error {
@@ -12,7 +12,7 @@ export function namedModel(address: string): string | undefined {
   if (name === '') return undefined;
   const elsewhere =
     /^[a-z][a-z0-9+.-]*:|^[\\/]{2}/i.test(name) || new URL(name, address).origin !== new URL(address).origin;
-  if (elsewhere) throw new SourceError(en.model.badAddress);
+  if (elsewhere) throw new SourceError(t.model.badAddress);
   return name;
 }
 
@@ -20,7 +20,7 @@ export function namedModel(address: string): string | undefined {
 export async function fetched(address: string, name: string): Promise<ModelSource> {
   const response = await fetch(new URL(address, document.baseURI));
   const isPage = response.headers.get('content-type')?.startsWith('text/html') === true;
-  if (!response.ok || isPage) throw new SourceError(en.model.notFound(name));
+  if (!response.ok || isPage) throw new SourceError(t.model.notFound(name));
   return { name, file: await response.blob() };
 }
 

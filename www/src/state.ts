@@ -1,6 +1,8 @@
 // What the page knows. Elements draw it and send events; main.ts alone changes it.
 import type { Report } from './generated/report.ts';
+import type { Language } from './i18n/text.ts';
 import type { LegendEntry, ModelSource, PictureView } from './messages.ts';
+import type { ThemeChoice } from './preferences.ts';
 import type { Changes } from './settings/changes.ts';
 import type { Gcode } from './slicer/gcode.ts';
 import type { Progress } from './slicer/pool.ts';
@@ -47,17 +49,24 @@ export type JobState =
   | { readonly kind: 'failed'; readonly problem: Problem }
   | { readonly kind: 'done' };
 
+/** What the visitor is at; the steps share one view. */
+export type Step = 'prepare' | 'preview' | 'print' | 'learn';
+
 export interface State {
   readonly engine: 'starting' | 'ready' | Problem;
   readonly model: ModelState;
   readonly job: JobState;
   readonly result: Result | undefined;
   readonly changes: Changes;
-  readonly show: 'model' | 'layers';
+  readonly step: Step;
   readonly side: PictureView;
   /** The layer shown, from 0. */
   readonly layer: number;
   readonly legend: readonly LegendEntry[];
+  readonly language: Language;
+  readonly theme: ThemeChoice;
+  /** Whether the page is dark now, by choice or as the system is. */
+  readonly dark: boolean;
 }
 
 export const initial: State = {
@@ -66,10 +75,13 @@ export const initial: State = {
   job: { kind: 'idle' },
   result: undefined,
   changes: {},
-  show: 'model',
+  step: 'prepare',
   side: 'iso',
   layer: 0,
   legend: [],
+  language: 'en',
+  theme: 'system',
+  dark: false,
 };
 
 /** Holds the state and tells listeners of each change, once per frame's worth of changes. */

@@ -1,22 +1,34 @@
-// Every word of the page's own; labels and help of settings come from the engine.
+// Every word of the page's own, in English; labels and help of settings come from the engine.
+// The other tables have the type of this one: a word that they lack does not compile.
+import { formats, unitSign } from './format.ts';
 
-const number = (digits: number): Intl.NumberFormat => new Intl.NumberFormat('en', { maximumFractionDigits: digits });
+const format = formats('en', ['h', 'min', 's']);
 
 export const en = {
+  /** What the language calls itself. */
+  language: 'English',
+  format,
   title: 'Foothold',
   tagline: 'From an STL to G-code, in this page. Nothing is uploaded.',
   loading: 'Starting the engine…',
-  sample: 'Sample bracket',
+  steps: {
+    heading: 'Steps',
+    prepare: 'Prepare',
+    preview: 'Preview',
+    print: 'Print',
+    learn: 'Learn',
+  },
+  page: {
+    language: 'Language',
+    dark: 'Dark colours',
+  },
   model: {
     heading: 'Model',
     open: 'Open model',
     hint: 'or drop an STL file anywhere',
     drop: 'Drop the STL file to open it',
     reading: (name: string) => `Reading ${name}…`,
-    size: ([x, y, z]: readonly number[]) =>
-      `${number(1).format(x ?? 0)} × ${number(1).format(y ?? 0)} × ${number(1).format(z ?? 0)} mm`,
-    triangles: (count: number) => `${number(0).format(count)} ${count === 1 ? 'triangle' : 'triangles'}`,
-    volume: (mm3: number) => `${number(1).format(mm3 / 1000)} cm³`,
+    triangles: (count: number) => `${format.number(count, 0)} ${count === 1 ? 'triangle' : 'triangles'}`,
     opened: (name: string) => `${name} is open.`,
     badAddress:
       'The address of the page names a model on another site. Only a model beside the page can be opened this way.',
@@ -37,9 +49,6 @@ export const en = {
   },
   view: {
     heading: 'View',
-    model: 'Model',
-    layers: 'Layers',
-    choice: 'What to show',
     sides: { iso: 'Corner', top: 'Top', front: 'Front' },
     side: 'Seen from',
     zoomIn: 'Zoom in',
@@ -62,10 +71,6 @@ export const en = {
     mass: 'Mass',
     cost: 'Cost',
     layers: 'Layers',
-    metres: (mm: number) => `${number(2).format(mm / 1000)} m`,
-    grams: (g: number) => `${number(1).format(g)} g`,
-    money: (amount: number) => amount.toFixed(2),
-    duration,
     legend: 'What each colour costs',
     role: 'Path',
     thisLayer: 'This layer',
@@ -76,7 +81,6 @@ export const en = {
   },
   settings: {
     heading: 'Settings',
-    basic: 'Most used',
     all: 'All settings',
     general: 'General',
     reset: (label: string, value: string) => `Set ${label} back to ${value}`,
@@ -84,8 +88,7 @@ export const en = {
     range: (low: string, high: string, unit: string) => `From ${low} to ${high}${unit === '' ? '' : ` ${unit}`}`,
     whole: 'A whole number, please',
     number: 'A number, please',
-    /** Units as a person writes them; the others stay as the engine names them. */
-    unit: (name: string) => ({ 'degrees C': '°C', 'mm/s2': 'mm/s²', 'mm3/s': 'mm³/s', 'g/cm3': 'g/cm³' })[name] ?? name,
+    unit: unitSign,
   },
   problem: {
     ModelError: { title: 'This model can’t be used', advice: 'Export it again as STL, or open another one.' },
@@ -99,15 +102,9 @@ export const en = {
       advice: 'That is a fault of ours. A new engine was started with your model: change a setting or try again.',
     },
   },
-} as const;
+};
 
-export type ProblemName = keyof typeof en.problem;
+/** The words of a language. */
+export type Words = typeof en;
 
-/** Seconds as a person says them: "1 h 5 min", "42 s". */
-function duration(seconds: number): string {
-  const minutes = Math.round(seconds / 60);
-  if (seconds < 60) return `${Math.round(seconds)} s`;
-  if (minutes < 60) return `${minutes} min`;
-  const [hours, rest] = [Math.floor(minutes / 60), minutes % 60];
-  return rest === 0 ? `${hours} h` : `${hours} h ${rest} min`;
-}
+export type ProblemName = keyof Words['problem'];

@@ -1,6 +1,6 @@
 // The model: opens a file by button or by dropping it anywhere on the page, and says what is open.
 import { html, nothing, type TemplateResult } from 'lit';
-import { en } from '../i18n/en.ts';
+import { t } from '../i18n/text.ts';
 import type { ModelState } from '../state.ts';
 import { Part } from './part.ts';
 import { problemBox } from './problem-box.ts';
@@ -37,24 +37,24 @@ export class DropZone extends Part {
   protected override render(): TemplateResult {
     return html`
       <section class="card" aria-labelledby="model-heading">
-        <h2 id="model-heading">${en.model.heading}</h2>
+        <h2 id="model-heading">${t.model.heading}</h2>
         ${this.#facts()}
         <div class="row">
-          <button type="button" class="button" @click=${this.#choose}>${en.model.open}</button>
-          <span class="hint">${en.model.hint}</span>
+          <button type="button" class="button" @click=${this.#choose}>${t.model.open}</button>
+          <span class="hint">${t.model.hint}</span>
         </div>
         <input type="file" accept=".stl,model/stl" hidden @change=${this.#chosen} />
       </section>
-      ${this.over ? html`<div class="drop-cover" aria-hidden="true"><p>${en.model.drop}</p></div>` : nothing}
+      ${this.over ? html`<div class="drop-cover" aria-hidden="true"><p>${t.model.drop}</p></div>` : nothing}
     `;
   }
 
   #facts(): TemplateResult | typeof nothing {
     switch (this.model.kind) {
       case 'none':
-        return this.starting ? html`<p class="hint">${en.loading}</p>` : nothing;
+        return this.starting ? html`<p class="hint">${t.loading}</p>` : nothing;
       case 'reading':
-        return html`<p class="model-name">${en.model.reading(this.model.source.name)}</p>`;
+        return html`<p class="model-name">${t.model.reading(this.model.source.name)}</p>`;
       case 'failed':
         return problemBox(this.model.problem);
       case 'open': {
@@ -62,8 +62,8 @@ export class DropZone extends Part {
         return html`
           <p class="model-name">${source.name}</p>
           <p class="facts">
-            <span>${en.model.size(facts.size)}</span><span>${en.model.volume(facts.volume_mm3)}</span
-            ><span>${en.model.triangles(facts.triangles)}</span>
+            <span>${t.format.size(facts.size)}</span><span>${t.format.volume(facts.volume_mm3)}</span
+            ><span>${t.model.triangles(facts.triangles)}</span>
           </p>
           ${facts.warnings.map(({ message }) => html`<p class="remark">${message}</p>`)}
         `;

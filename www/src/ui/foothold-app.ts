@@ -1,75 +1,81 @@
-// The page: hands the state to its parts and their events to the session.
+// The page: the steps' bar, the chosen step's panel beside the view that all steps share, and the job.
 import { html, nothing, type TemplateResult } from 'lit';
-import settingsSchema from '../../../schema/settings.schema.json';
-import { en } from '../i18n/en.ts';
-import type { Bounds, LegendEntry, PictureView } from '../messages.ts';
-import type { Session } from '../session.ts';
-import { withChange } from '../settings/changes.ts';
-import type { Schema } from '../settings/fields.ts';
-import { heightOf, layerOf } from '../slicer/gcode.ts';
-import { initial, isStale, type Result, type State, type Store } from '../state.ts';
-import type { LayerText, Painter } from '../view/painter.ts';
-
-import '../view/layer-view.ts';
-import './drop-zone.ts';
+import { t } from '../i18n/text.ts';
+import type { ThemeChoice } from '../preferences.ts';
+import { isStale, type Step } from '../state.ts';
+import type { Painter } from '../view/painter.ts';
 import './job-bar.ts';
-import './layer-slider.ts';
-import { Part } from './part.ts';
+import './page-menu.ts';
+import './prepare-step.ts';
+import './preview-step.ts';
 import { problemBox } from './problem-box.ts';
-import './result-figures.ts';
-import './settings-form.ts';
-import type { SettingChange } from './settings-form.ts';
+import './step-bar.ts';
+import { StepPart } from './step-part.ts';
+import './step-view.ts';
 
-const sides: readonly PictureView[] = ['iso', 'top', 'front'];
+/** The steps there are, in their order. */
+const steps: readonly Step[] = ['prepare', 'preview'];
 
-export class FootholdApp extends Part {
-  static override properties = {
-    state: { attribute: false },
-    session: { attribute: false },
-    painter: { attribute: false },
-    store: { attribute: false },
-  };
-  declare state: State;
-  declare store: Store | undefined;
-  declare session: Session | undefined;
+export class FootholdApp extends StepPart {
+  static override properties = { ...StepPart.properties, painter: { attribute: false } };
   declare painter: Painter | undefined;
-
-  /** The layer shown and what it was made of; kept while neither changes. */
-  #shown: (LayerText & { readonly result: Result; readonly layer: number; readonly height: string }) | undefined;
 
   constructor() {
     super();
-    this.state = initial;
-    this.store = undefined;
-    this.session = undefined;
     this.painter = undefined;
   }
 
-  protected override willUpdate(): void {
-    const { result, layer } = this.state;
-    if (result === this.#shown?.result && layer === this.#shown?.layer) return;
-    const text = result === undefined ? new Uint8Array() : layerOf(result.gcode, layer);
-    this.#shown = result && { result, layer, text, settings: result.settings, height: heightOf(text) };
-  }
-
   protected override render(): TemplateResult {
+    const { step, engine, language, dark } = this.state;
     return html`
       <header class="top">
-        <img src="./icon.svg" alt="" width="28" height="28" />
-        <h1>${en.title}</h1>
-        <p>${en.tagline}</p>
+        <div class="brand">
+          <img src="./icon.svg" alt="" width="28" height="28" />
+          <h1>${t.title}</h1>
+        </div>
+        <step-bar
+          .steps=${steps}
+          .step=${step}
+          @step-change=${({ detail }: CustomEvent<Step>) => this.store?.update({ step: detail })}
+        ></step-bar>
+        <page-menu
+          .language=${language}
+          .dark=${dark}
+          @language-change=${({ detail }: CustomEvent<typeof language>) => this.store?.update({ language: detail })}
+          @theme-change=${({ detail }: CustomEvent<ThemeChoice>) => this.store?.update({ theme: detail })}
+        ></page-menu>
       </header>
       <main class="page">
-        <div class="column prepare">
-          ${typeof this.state.engine === 'string' ? nothing : problemBox(this.state.engine)}
-          <drop-zone .model=${this.state.model} .starting=${this.state.engine === 'starting'} @open-file=${this.#open}></drop-zone>
-          ${this.#settings()} ${this.#job()}
+        <div class="panel" id="panel" role="tabpanel" aria-labelledby="tab-${step}">
+          ${typeof engine === 'string' ? nothing : problemBox(engine)}
+          <div class="panel-scroll">${this.#panel()}</div>
+          ${this.#job()}
         </div>
-        <section class="view" aria-label=${en.view.heading}>${this.#tabs()} ${this.#picture()}</section>
-        <div class="column results">${this.#figures()}</div>
+        <step-view
+          .state=${this.state}
+          .store=${this.store}
+          .session=${this.session}
+          .painter=${this.painter}
+        ></step-view>
       </main>
       <p class="unseen" role="status">${this.#said()}</p>
     `;
+  }
+
+  /** The panel of the chosen step. */
+  #panel(): TemplateResult | typeof nothing {
+    const { state, store, session } = this;
+    switch (state.step) {
+      case 'prepare':
+        return html`<prepare-step .state=${state} .store=${store} .session=${session}></prepare-step>`;
+      case 'preview':
+        return html`<preview-step .state=${state} .store=${store} .session=${session}></preview-step>`;
+      case 'print':
+      case 'learn':
+        return nothing;
+      default:
+        return state.step satisfies never;
+    }
   }
 
   #job(): TemplateResult {
@@ -84,114 +90,22 @@ export class FootholdApp extends Part {
     ></job-bar>`;
   }
 
-  #settings(): TemplateResult {
-    return html`<settings-form
-      .schema=${settingsSchema as Schema}
-      .changes=${this.state.changes}
-      @setting-change=${({ detail: { field, value } }: CustomEvent<SettingChange>) =>
-        this.store?.update({ changes: withChange(this.state.changes, field, value) })}
-    ></settings-form>`;
-  }
-
-  #tabs(): TemplateResult {
-    const { show, side, result } = this.state;
-    return html`<div class="view-bar">
-      <div class="choice" role="group" aria-label=${en.view.choice}>
-        ${choice(en.view.model, show === 'model', () => this.store?.update({ show: 'model' }))}
-        ${choice(en.view.layers, show === 'layers', () => this.store?.update({ show: 'layers' }), result === undefined)}
-      </div>
-      ${
-        show === 'model'
-          ? html`<div class="choice" role="group" aria-label=${en.view.side}>
-            ${sides.map((it) => choice(en.view.sides[it], side === it, () => this.store?.update({ side: it })))}
-          </div>`
-          : nothing
-      }
-    </div>`;
-  }
-
-  #picture(): TemplateResult {
-    const { show, side, result, layer } = this.state;
-    return html`<div class="picture">
-      <layer-view
-        .painter=${this.painter}
-        .show=${show}
-        .side=${side}
-        .model=${this.state.model.kind === 'open' ? this.state.model : undefined}
-        .job=${result}
-        .extent=${result && extentOf(result)}
-        .layer=${this.#shown}
-        .label=${this.#label()}
-        @legend=${({ detail }: CustomEvent<readonly LegendEntry[]>) => this.store?.update({ legend: detail })}
-        @layer-step=${({ detail }: CustomEvent<number>) => this.session?.showLayer(layer + detail)}
-      ></layer-view>
-      ${
-        show === 'layers' && result !== undefined
-          ? html`<layer-slider
-            .layer=${layer}
-            .total=${result.gcode.layers.length}
-            .height=${this.#shown?.height ?? ''}
-            @layer-change=${this.#layer}
-          ></layer-slider>`
-          : nothing
-      }
-    </div>`;
-  }
-
-  #label(): string {
-    const { show, result, layer, model } = this.state;
-    if (show === 'layers') return en.view.layerPicture(layer + 1, result?.gcode.layers.length ?? 0);
-    return model.kind === 'open' ? en.view.modelPicture(model.source.name) : en.view.heading;
-  }
-
-  #figures(): TemplateResult {
-    const { result, legend } = this.state;
-    return html`<result-figures
-      .report=${result?.report}
-      .legend=${legend}
-      @layer-change=${this.#layer}
-    ></result-figures>`;
-  }
-
   /** What a screen reader is told, a few times in a job. */
   #said(): string {
     const { engine, model, job, result } = this.state;
-    if (engine === 'starting') return en.loading;
+    if (engine === 'starting') return t.loading;
     if (job.kind === 'running') {
       const { stage, done, total } = job.progress;
       const quarter = stage === 'layers' && total > 0 ? Math.floor((4 * done) / total) / 4 : 0;
-      return quarter > 0 ? en.job.percent(quarter) : en.job.stages[stage];
+      return quarter > 0 ? t.job.percent(quarter) : t.job.stages[stage];
     }
-    if (job.kind === 'cancelled') return en.job.cancelled;
+    if (job.kind === 'cancelled') return t.job.cancelled;
     if (job.kind === 'done' && result !== undefined) {
-      return en.job.done(result.report.layers, en.figures.duration(result.report.time_s));
+      return t.job.done(result.report.layers, t.format.duration(result.report.time_s));
     }
-    if (model.kind === 'reading') return en.model.reading(model.source.name);
-    return model.kind === 'open' ? en.model.opened(model.source.name) : '';
+    if (model.kind === 'reading') return t.model.reading(model.source.name);
+    return model.kind === 'open' ? t.model.opened(model.source.name) : '';
   }
-
-  #open({ detail }: CustomEvent<File>): void {
-    void this.session?.open({ name: detail.name, file: detail });
-  }
-
-  #layer({ detail }: CustomEvent<number>): void {
-    this.session?.showLayer(detail);
-  }
-}
-
-/** Room around the model for what is printed beside it, mm. */
-const MARGIN = 6;
-
-/** What the layers of a result cover on the bed. */
-function extentOf({ report }: Result): Bounds {
-  const [min, max] = report.model.bounds;
-  return [min[0] - MARGIN, min[1] - MARGIN, max[0] + MARGIN, max[1] + MARGIN];
-}
-
-function choice(label: string, chosen: boolean, choose: () => void, off = false): TemplateResult {
-  return html`<button type="button" aria-pressed=${chosen} aria-disabled=${off} @click=${() => !off && choose()}>
-    ${label}
-  </button>`;
 }
 
 customElements.define('foothold-app', FootholdApp);

@@ -1,6 +1,6 @@
 // The job: slice, how far it is, cancel, download.
 import { html, nothing, type TemplateResult } from 'lit';
-import { en } from '../i18n/en.ts';
+import { t } from '../i18n/text.ts';
 import { type JobState, shareOf } from '../state.ts';
 import { Part } from './part.ts';
 import { problemBox } from './problem-box.ts';
@@ -31,7 +31,7 @@ export class JobBar extends Part {
   protected override render(): TemplateResult {
     const running = this.job.kind === 'running';
     return html`
-      <section class="card job" aria-label=${en.job.heading}>
+      <section class="card job" aria-label=${t.job.heading}>
         <div class="row buttons">
           <button
             type="button"
@@ -39,7 +39,7 @@ export class JobBar extends Part {
             aria-disabled=${!this.ready || running}
             @click=${() => this.ready && !running && this.tell('slice')}
           >
-            ${en.job.slice}
+            ${t.job.slice}
           </button>
           ${running ? this.#cancel() : this.#download()}
         </div>
@@ -49,7 +49,7 @@ export class JobBar extends Part {
   }
 
   #cancel(): TemplateResult {
-    return html`<button type="button" class="button" @click=${() => this.tell('cancel')}>${en.job.cancel}</button>`;
+    return html`<button type="button" class="button" @click=${() => this.tell('cancel')}>${t.job.cancel}</button>`;
   }
 
   #download(): TemplateResult {
@@ -59,7 +59,7 @@ export class JobBar extends Part {
       aria-disabled=${!this.done}
       @click=${() => this.done && this.tell('download')}
     >
-      ${en.job.download}
+      ${t.job.download}
     </button>`;
   }
 
@@ -68,16 +68,16 @@ export class JobBar extends Part {
       case 'idle':
         return nothing;
       case 'cancelled':
-        return html`<p class="hint">${en.job.cancelled}</p>`;
+        return html`<p class="hint">${t.job.cancelled}</p>`;
       case 'done':
-        return this.stale ? html`<p class="remark">${en.job.stale}</p>` : nothing;
+        return this.stale ? html`<p class="remark">${t.job.stale}</p>` : nothing;
       case 'failed':
         return problemBox(this.job.problem);
       case 'running': {
         const { stage, done, total } = this.job.progress;
         return html`
-          <progress aria-label=${en.job.progress} max="1" .value=${shareOf(this.job.progress)}></progress>
-          <p class="hint">${en.job.stages[stage]}${stage === 'layers' ? ` ${en.job.layers(done, total)}` : ''}</p>
+          <progress aria-label=${t.job.progress} max="1" .value=${shareOf(this.job.progress)}></progress>
+          <p class="hint">${t.job.stages[stage]}${stage === 'layers' ? ` ${t.job.layers(done, total)}` : ''}</p>
         `;
       }
       default:

@@ -1,6 +1,6 @@
 // Which layer is shown.
 import { html, type TemplateResult } from 'lit';
-import { en } from '../i18n/en.ts';
+import { t } from '../i18n/text.ts';
 import { Part } from './part.ts';
 
 /** Sends `layer-change` with the layer's index, from 0. */
@@ -22,19 +22,19 @@ export class LayerSlider extends Part {
     const shown = this.layer + 1;
     return html`
       <div class="slider">
-        <button type="button" class="icon-button" aria-label=${en.view.next} @click=${() => this.#go(this.layer + 1)}>
+        <button type="button" class="icon-button" aria-label=${t.view.next} @click=${() => this.#go(this.layer + 1)}>
           <span class="up" aria-hidden="true"></span>
         </button>
         <input
           type="range"
-          aria-label=${en.view.layer}
-          aria-valuetext=${en.view.layerValue(shown, this.total, this.height)}
+          aria-label=${t.view.layer}
+          aria-valuetext=${t.view.layerValue(shown, this.total, this.height)}
           min="1"
           max=${this.total}
           .value=${String(shown)}
           @input=${(event: Event) => this.#go(Number((event.target as HTMLInputElement).value) - 1)}
         />
-        <button type="button" class="icon-button" aria-label=${en.view.previous} @click=${() => this.#go(this.layer - 1)}>
+        <button type="button" class="icon-button" aria-label=${t.view.previous} @click=${() => this.#go(this.layer - 1)}>
           <span class="down" aria-hidden="true"></span>
         </button>
         <p class="slider-value" aria-hidden="true">

@@ -1,7 +1,21 @@
-// What the page's elements have in common: they draw into the page itself, so that one stylesheet fits all.
+// What the page's elements have in common: they draw into the page itself, so that one stylesheet fits all,
+// and draw anew when the language changes.
 import { LitElement } from 'lit';
+import { onLanguage } from '../i18n/text.ts';
 
 export abstract class Part extends LitElement {
+  #forget: (() => void) | undefined;
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    this.#forget = onLanguage(() => this.requestUpdate());
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.#forget?.();
+  }
+
   protected override createRenderRoot(): HTMLElement {
     return this;
   }

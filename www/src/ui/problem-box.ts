@@ -1,10 +1,11 @@
 // An error in words, with what to do about it.
 import { html, type TemplateResult } from 'lit';
-import { en, type ProblemName } from '../i18n/en.ts';
+import type { ProblemName } from '../i18n/en.ts';
+import { t } from '../i18n/text.ts';
 import type { Problem } from '../state.ts';
 
 export function problemBox(problem: Problem): TemplateResult {
-  const known = en.problem[problem.name in en.problem ? (problem.name as ProblemName) : 'InternalError'];
+  const known = t.problem[problem.name in t.problem ? (problem.name as ProblemName) : 'InternalError'];
   return html`
     <div class="problem" role="alert">
       <p class="problem-title">${known.title}</p>

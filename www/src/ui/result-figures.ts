@@ -1,7 +1,7 @@
 // What the print takes: time, filament, cost, and which colour stands for what.
 import { html, nothing, type TemplateResult } from 'lit';
 import type { Report } from '../generated/report.ts';
-import { en } from '../i18n/en.ts';
+import { t } from '../i18n/text.ts';
 import type { LegendEntry } from '../messages.ts';
 import { words } from '../settings/fields.ts';
 import type { Remark } from '../state.ts';
@@ -47,7 +47,7 @@ export class ResultFigures extends Part {
     if (report === undefined) return this.#empty();
     return html`
       <section class="card" aria-labelledby="figures-heading">
-        <h2 id="figures-heading">${en.figures.heading}</h2>
+        <h2 id="figures-heading">${t.figures.heading}</h2>
         ${this.#figures(report)} ${this.#legend(report)} ${this.#remarks(report.warnings)}
       </section>
     `;
@@ -55,19 +55,19 @@ export class ResultFigures extends Part {
 
   #empty(): TemplateResult {
     return html`<section class="card" aria-labelledby="figures-heading">
-      <h2 id="figures-heading">${en.figures.heading}</h2>
-      <p class="hint">${en.figures.empty}</p>
+      <h2 id="figures-heading">${t.figures.heading}</h2>
+      <p class="hint">${t.figures.empty}</p>
     </section>`;
   }
 
   #figures(report: Report): TemplateResult {
     const { filament, time_s, layers } = report;
     const figures = [
-      [en.figures.time, en.figures.duration(time_s)],
-      [en.figures.layers, String(layers)],
-      [en.figures.filament, en.figures.metres(filament.length_mm)],
-      [en.figures.mass, en.figures.grams(filament.mass_g)],
-      [en.figures.cost, en.figures.money(filament.cost)],
+      [t.figures.time, t.format.duration(time_s)],
+      [t.figures.layers, String(layers)],
+      [t.figures.filament, t.format.metres(filament.length_mm)],
+      [t.figures.mass, t.format.grams(filament.mass_g)],
+      [t.figures.cost, t.format.money(filament.cost)],
     ];
     return html`<dl class="figures">
       ${figures.map(([name, value]) => html`<div><dt>${name}</dt><dd>${value}</dd></div>`)}
@@ -76,13 +76,13 @@ export class ResultFigures extends Part {
 
   #legend(report: Report): TemplateResult {
     return html`<table class="legend">
-      <caption>${en.figures.legend}</caption>
+      <caption>${t.figures.legend}</caption>
       <thead>
         <tr>
-          <th scope="col">${en.figures.role}</th>
-          <th scope="col">${en.figures.thisLayer}</th>
-          <th scope="col">${en.figures.length}</th>
-          <th scope="col">${en.figures.share}</th>
+          <th scope="col">${t.figures.role}</th>
+          <th scope="col">${t.figures.thisLayer}</th>
+          <th scope="col">${t.figures.length}</th>
+          <th scope="col">${t.figures.share}</th>
         </tr>
       </thead>
       <tbody>
@@ -99,15 +99,15 @@ export class ResultFigures extends Part {
       <th scope="row">
         <i class="swatch" style=${colour === undefined ? '' : `background:${colour}`} aria-hidden="true"></i>${labelOf(roles)}
       </th>
-      <td>${here === 0 ? '' : en.figures.metres(here)}</td>
-      <td>${en.figures.metres(length_mm)}</td>
-      <td>${en.figures.duration(time_s)}</td>
+      <td>${here === 0 ? '' : t.format.metres(here)}</td>
+      <td>${t.format.metres(length_mm)}</td>
+      <td>${t.format.duration(time_s)}</td>
     </tr>`;
   }
 
   #remarks(remarks: readonly Remark[]): TemplateResult | typeof nothing {
     if (remarks.length === 0) return nothing;
-    return html`<h3>${en.figures.warnings}</h3>
+    return html`<h3>${t.figures.warnings}</h3>
       <ul class="remarks">
         ${remarks.map((remark) => html`<li>${remark.message} ${this.#place(remark)}</li>`)}
       </ul>`;
@@ -116,7 +116,7 @@ export class ResultFigures extends Part {
   #place({ layer }: Remark): TemplateResult | typeof nothing {
     if (layer === undefined || layer === null) return nothing;
     return html`<button type="button" class="link" @click=${() => this.tell('layer-change', layer)}>
-      ${en.figures.showLayer(layer + 1)}
+      ${t.figures.showLayer(layer + 1)}
     </button>`;
   }
 }

@@ -1,6 +1,6 @@
 // The settings: what is used most first, then every stage's, all made from the engine's schema.
 import { html, nothing, type TemplateResult } from 'lit';
-import { en } from '../i18n/en.ts';
+import { t } from '../i18n/text.ts';
 import { type Changes, fault, parse } from '../settings/changes.ts';
 import { type Field, type Group, groupsOf, type Schema, type Value, words } from '../settings/fields.ts';
 import { Part } from './part.ts';
@@ -52,10 +52,10 @@ export class SettingsForm extends Part {
     const first = basic.map((path) => fields.find((field) => field.path === path)).filter((it) => it !== undefined);
     return html`
       <section class="card" aria-labelledby="settings-heading">
-        <h2 id="settings-heading">${en.settings.heading}</h2>
+        <h2 id="settings-heading">${t.settings.heading}</h2>
         <div class="fields">${first.map((field) => this.#row(field, 'basic'))}</div>
         <details class="all">
-          <summary>${en.settings.all}</summary>
+          <summary>${t.settings.all}</summary>
           ${this.#groups.map((group) => this.#group(group))}
         </details>
       </section>
@@ -66,8 +66,8 @@ export class SettingsForm extends Part {
     const changed = group.fields.filter((field) => field.path in this.changes).length;
     return html`<details class="group">
       <summary>
-        ${group.path === '' ? en.settings.general : groupLabel(group.path)}
-        ${changed > 0 ? html`<span class="badge">${changed} ${en.settings.changed}</span>` : nothing}
+        ${group.path === '' ? t.settings.general : groupLabel(group.path)}
+        ${changed > 0 ? html`<span class="badge">${changed} ${t.settings.changed}</span>` : nothing}
       </summary>
       <div class="fields">${group.fields.map((field) => this.#row(field, 'all'))}</div>
     </details>`;
@@ -79,7 +79,7 @@ export class SettingsForm extends Part {
     return html`<div class="field ${changed ? 'changed' : ''} ${field.kind}">
       <label for=${id} title=${field.help}>${field.label}</label>
       ${this.#control(field, id)}
-      <span class="unit">${'unit' in field ? en.settings.unit(field.unit) : ''}</span>
+      <span class="unit">${'unit' in field ? t.settings.unit(field.unit) : ''}</span>
       ${changed ? this.#reset(field) : nothing} ${this.#note(field, id)}
     </div>`;
   }
@@ -117,7 +117,7 @@ export class SettingsForm extends Part {
   }
 
   #reset(field: Field): TemplateResult {
-    const label = en.settings.reset(field.label, textOf(field.default));
+    const label = t.settings.reset(field.label, textOf(field.default));
     return html`<button type="button" class="reset" aria-label=${label} title=${label} @click=${() => this.#set(field, field.default)}>
       <span aria-hidden="true">↺</span>
     </button>`;
@@ -134,7 +134,7 @@ export class SettingsForm extends Part {
     const value = parse(field, text);
     const reason = fault(field, value);
     if (reason !== undefined || value === undefined) {
-      const why = reason === 'range' ? rangeOf(field) : en.settings[reason ?? 'number'];
+      const why = reason === 'range' ? rangeOf(field) : t.settings[reason ?? 'number'];
       this.faults = { ...this.faults, [field.path]: String(why) };
       return;
     }
@@ -164,7 +164,7 @@ function textOf(value: Value): string {
 
 function rangeOf(field: Field): string {
   if (!('unit' in field) || field.low === undefined || field.high === undefined) return '';
-  return en.settings.range(String(field.low), String(field.high), en.settings.unit(field.unit));
+  return t.settings.range(String(field.low), String(field.high), t.settings.unit(field.unit));
 }
 
 function groupLabel(path: string): string {

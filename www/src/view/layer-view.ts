@@ -1,6 +1,6 @@
 // The picture: one layer's paths, or the model on the bed. Events -> camera -> the engine paints.
 import { html, nothing, type TemplateResult } from 'lit';
-import { en } from '../i18n/en.ts';
+import { t } from '../i18n/text.ts';
 import type { Bounds, LegendEntry, PictureView, Theme } from '../messages.ts';
 import { Part } from '../ui/part.ts';
 import { type Camera, fitTo, numbers, pan, type Size, type Spot, zoom } from './camera.ts';
@@ -24,6 +24,7 @@ export class LayerView extends Part {
     job: { attribute: false },
     extent: { attribute: false },
     label: { attribute: false },
+    dark: { attribute: false },
   };
   declare painter: Painter | undefined;
   declare show: 'model' | 'layers';
@@ -36,8 +37,8 @@ export class LayerView extends Part {
   /** What all layers together cover; the camera starts with it, so that it stands still from layer to layer. */
   declare extent: Bounds | undefined;
   declare label: string;
+  declare dark: boolean;
 
-  readonly #dark = matchMedia('(prefers-color-scheme: dark)');
   readonly #cameras = new Map<unknown, Camera>();
   #size: Size = { width: 1, height: 1 };
   #pictured: (Shown & { side: PictureView }) | undefined;
@@ -58,18 +59,19 @@ export class LayerView extends Part {
     this.job = undefined;
     this.extent = undefined;
     this.label = '';
+    this.dark = false;
   }
 
   protected override render(): TemplateResult {
     return html`
-      <div class="stage" tabindex="0" role="application" aria-label=${en.view.canvas}>
+      <div class="stage" tabindex="0" role="application" aria-label=${t.view.canvas}>
         <canvas class="layer-canvas" role="img" aria-label=${this.label} ?hidden=${this.show !== 'layers'}></canvas>
         <canvas class="model-canvas" role="img" aria-label=${this.label} ?hidden=${this.show !== 'model'}></canvas>
-        ${this.show === 'layers' && this.layer === undefined ? html`<p class="empty">${en.view.empty}</p>` : nothing}
+        ${this.show === 'layers' && this.layer === undefined ? html`<p class="empty">${t.view.empty}</p>` : nothing}
         <div class="zoom-buttons">
-          ${this.#button(en.view.zoomIn, '+', () => this.#zoom(1.25))}
-          ${this.#button(en.view.zoomOut, '−', () => this.#zoom(0.8))}
-          ${this.#button(en.view.fit, '⤢', () => this.#fit())}
+          ${this.#button(t.view.zoomIn, '+', () => this.#zoom(1.25))}
+          ${this.#button(t.view.zoomOut, '−', () => this.#zoom(0.8))}
+          ${this.#button(t.view.fit, '⤢', () => this.#fit())}
         </div>
       </div>
     `;
@@ -89,7 +91,6 @@ export class LayerView extends Part {
       this.#size = { width: entry.contentRect.width, height: entry.contentRect.height };
       this.#request();
     }).observe(stage);
-    this.#dark.addEventListener('change', () => this.#request());
   }
 
   protected override updated(): void {
@@ -190,7 +191,7 @@ export class LayerView extends Part {
   }
 
   #theme(): Theme {
-    return this.#dark.matches ? 'dark' : 'light';
+    return this.dark ? 'dark' : 'light';
   }
 
   async #adopt(painter: Painter): Promise<void> {
