@@ -64,7 +64,7 @@ fn stages(criterion: &mut Criterion) {
 
 fn whole(criterion: &mut Criterion) {
     let model = load(&write_binary(&bumpy_ball(200, 200))).expect("a closed ball");
-    let named = NamedModel { name: "ball".to_owned(), model };
+    let named = NamedModel::new("ball", model);
     let mut job = Job::new(&[named], Settings::default(), &|| 0.0).expect("it fits");
     job.prepare(&|| 0.0).expect("default settings");
     let mut group = criterion.benchmark_group("whole");

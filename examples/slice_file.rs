@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let clock = || begin.elapsed().as_secs_f64() * 1000.0;
     let settings = Settings::resolve([], sets.iter().map(String::as_str))?;
     let name = Path::new(model).file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
-    let model = NamedModel { name, model: mesh::load(&std::fs::read(model)?)? };
+    let model = NamedModel::new(name, mesh::load(&std::fs::read(model)?)?);
     let parsed = clock();
     let mut job = Job::new(&[model], settings, &clock)?;
     job.add_parse_time(parsed);

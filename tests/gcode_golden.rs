@@ -15,7 +15,7 @@ use foothold::settings::Settings;
 
 fn run() -> (Vec<u8>, Report) {
     let model = load(&write_binary(&common::medley())).expect("a good mesh");
-    let named = NamedModel { name: "medley".to_owned(), model };
+    let named = NamedModel::new("medley", model);
     let mut job = Job::new(&[named], Settings::default(), &|| 0.0).expect("it fits");
     job.prepare(&|| 0.0).expect("good settings");
     let range = job.slice(0, job.layer_count(), &|| 0.0);

@@ -3,7 +3,9 @@
 mod common;
 mod orientation_shapes;
 
-use foothold::orientation::{OrientationOptions, OrientationReport, candidates, choose, evaluate, orient};
+use foothold::orientation::{
+    Candidates, OrientationOptions, OrientationReport, candidates, choose, evaluate, orient,
+};
 use glam::DVec3;
 use orientation_shapes::{
     cuboid, frustum, inside_out, octahedron, part_model_1, prism, random_from, random_rotation, rotated,
@@ -167,4 +169,19 @@ fn the_report_has_the_fields_of_the_product() {
     }
     assert_eq!(text["chosen"], 5);
     assert_eq!(text["o2"], serde_json::json!([0, 0, 0, 0, 1, 0]));
+}
+
+#[test]
+fn a_side_of_the_hull_is_chosen_only_where_that_is_allowed() {
+    let axes = OrientationOptions { hull_directions: 30, ..at(0.2) };
+    let hull = OrientationOptions { candidates: Candidates::Hull, ..axes.clone() };
+    let askew = rotated(&part_model_1(), random_rotation(random_from(1)));
+    let (by_axes, by_hull) = (report(&askew, &axes), report(&askew, &hull));
+    assert_eq!(by_axes.directions, by_hull.directions);
+    assert!((1..=6).contains(&by_axes.chosen) && by_axes.o2[by_axes.chosen as usize - 1] == 1);
+    assert!(by_hull.chosen > 6);
+    let least = by_hull.directions.iter().map(|d| d.total_mm3).fold(f64::INFINITY, f64::min);
+    assert!(by_hull.chosen_figures().unwrap().total_mm3 <= least + 0.01);
+    assert_eq!(axes.for_choice().hull_directions, 0);
+    assert_eq!(hull.for_choice(), hull);
 }

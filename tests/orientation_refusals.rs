@@ -117,3 +117,28 @@ fn cancelling_stops_at_once_and_progress_reaches_the_end() {
     assert!(rising);
     assert_eq!(last.0, last.1);
 }
+
+fn job_of(mesh: &Mesh, sets: &[&str]) -> Result<foothold::pipeline::Job, foothold::pipeline::JobError> {
+    use foothold::pipeline::{Job, NamedModel};
+    let model = foothold::mesh::load(&foothold::mesh::stl::write_binary(mesh)).expect("a good mesh");
+    let settings = foothold::settings::Settings::resolve([], sets.iter().copied()).expect("good settings");
+    Job::new(&[NamedModel::new("part", model)], settings, &|| 0.0)
+}
+
+#[test]
+fn a_part_that_cannot_be_compared_is_printed_as_it_lies() {
+    let sheet = cuboid([0.0; 3], [10.0, 20.0, 0.15]);
+    let mut job =
+        job_of(&sheet, &["orientation.mode=auto", "layers.first_height=0.15"]).expect("it lies flat");
+    job.prepare(&|| 0.0).expect("good settings");
+    job.add(job.slice(0, job.layer_count(), &|| 0.0).meta);
+    let report = job.finish(&|| 0.0).expect("all layers are there").report;
+    let told: Vec<&str> = report.warnings.iter().map(|w| w.code.as_str()).collect();
+    assert_eq!(told, ["orientation_kept"]);
+    assert_eq!(
+        report.warnings[0].message,
+        "part: layers of 0.2 mm are thicker than the part, which measures 0.15000000596046448 mm on one side; \
+         it is printed as it lies"
+    );
+    assert!(report.orientation.is_none());
+}

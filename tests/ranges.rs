@@ -15,7 +15,7 @@ fn model(mesh: &Mesh) -> LoadedModel {
 
 fn job(mesh: &Mesh, sets: &[&str]) -> Job {
     let settings = Settings::resolve([], sets.iter().copied()).expect("good settings");
-    let named = NamedModel { name: "part".to_owned(), model: model(mesh) };
+    let named = NamedModel::new("part", model(mesh));
     let mut job = Job::new(&[named], settings, &|| 0.0).expect("it fits");
     job.prepare(&|| 0.0).expect("good settings");
     job

@@ -31,7 +31,7 @@ fn manifest(folder: &Path) -> Vec<Value> {
 
 fn job(model: LoadedModel, sets: &[&str]) -> Job {
     let settings = Settings::resolve([], sets.iter().copied()).expect("good settings");
-    let named = NamedModel { name: "part".to_owned(), model };
+    let named = NamedModel::new("part", model);
     let mut job = Job::new(&[named], settings, &|| 0.0).expect("it fits");
     job.prepare(&|| 0.0).expect("good settings");
     job

@@ -5,7 +5,9 @@
 mod common;
 
 use foothold::mesh::stl::write_binary;
-use foothold::wasm::{Chunk, Job, Model, ModelReader, default_settings, resolve_settings, slice_share};
+use foothold::wasm::{
+    Chunk, Job, Model, ModelReader, SharedMesh, default_settings, resolve_settings, slice_share,
+};
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_test::wasm_bindgen_test;
 
@@ -78,6 +80,32 @@ fn the_report_is_json_and_the_job_is_over_after_it() {
     assert!(report["time_s"].as_f64().expect("a number") > 60.0);
     let Err(again) = job.finish() else { panic!("finished twice") };
     assert_eq!(error_name(again).0, "InternalError");
+}
+
+#[wasm_bindgen_test]
+fn directions_evaluated_elsewhere_are_the_same_and_turn_the_job() {
+    let settings = resolve_settings(vec![], vec!["orientation.mode=auto".to_owned()]).expect("good settings");
+    // On its side it stands as it is needed: the column of a T.
+    let stl = write_binary(&common::cuboid(glam::Vec3::ZERO, glam::Vec3::new(4.0, 30.0, 30.0)));
+    let mut part = model(&stl, 4096);
+    let ups = part.directions(&settings, false).expect("a sound part");
+    assert_eq!(ups.len(), 18);
+    let mesh = SharedMesh::new(&part.share().expect("bytes")).expect("the same mesh");
+    let mut figures = Vec::new();
+    for (id, up) in (1..).zip(ups.chunks(3)) {
+        let here = part.evaluate(&settings, id, up).expect("a sound part");
+        assert_eq!(here, mesh.evaluate(&settings, id, up).expect("a sound part"));
+        figures.push(js_sys::Uint8Array::from(&here[..]));
+    }
+    let report = part.choose(&settings, figures).expect("all six are there");
+    let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+    assert_eq!(report["chosen"], 5);
+    let layers = |part: Model| {
+        let mut job = Job::new(vec![part], vec!["part".to_owned()], &settings).expect("it fits");
+        job.prepare().expect("good settings");
+        job.layer_count().expect("a running job")
+    };
+    assert_eq!(layers(part.clone_model()), layers(model(&stl, 4096)));
 }
 
 #[wasm_bindgen_test]

@@ -17,6 +17,7 @@ export interface Weighing {
   readonly model: string;
   readonly settings: SettingWords;
   readonly report: string | undefined;
+  readonly workers: number;
 }
 
 export type Command =
@@ -48,7 +49,7 @@ usage: foothold slice MODEL... [-o OUT.gcode] [--settings F.json] [--set path=va
                 [--report R.json] [--workers N]
        foothold inspect MODEL [--report R.json]
        foothold draw MODEL (--layer K | --plane y=12.5) -o OUT.svg [--settings F.json] [--set path=value]...
-       foothold orient MODEL [--report R.json] [--layer-height T]
+       foothold orient MODEL [--report R.json] [--layer-height T] [--workers N]
        foothold compare MODEL [--report R.json]
        foothold settings [--schema] [--settings F.json] [--set path=value]...
 
@@ -63,7 +64,7 @@ usage: foothold slice MODEL... [-o OUT.gcode] [--settings F.json] [--set path=va
   --settings       settings as JSON; may be given again, the later one wins
   --set            one setting: JSON, else a plain word (--set adhesion.kind=skirt)
   --report         what was made, as JSON
-  --workers        engines that slice at the same time (default: processors, at most 4)
+  --workers        engines that work at the same time (default: processors, at most 4)
   --help, --version
 
 exit: 0 done; 1 a bug of ours; 2 wrong use or settings; 3 a model that can't be read or used;
@@ -76,6 +77,7 @@ const settingOptions = {
 } as const;
 const output = { output: { type: 'string', short: 'o' } } as const;
 const report = { report: { type: 'string' } } as const;
+const workers = { workers: { type: 'string' } } as const;
 
 /** The command that `words` (without node and the script) ask for. */
 export function parseCommand(words: readonly string[]): Command {
@@ -102,7 +104,7 @@ export function parseCommand(words: readonly string[]): Command {
 }
 
 function slice(words: readonly string[]): Command {
-  const options = { ...settingOptions, ...output, ...report, workers: { type: 'string' } } as const;
+  const options = { ...settingOptions, ...output, ...report, ...workers } as const;
   const { values, positionals } = parsed({ args: [...words], options, allowPositionals: true });
   if (positionals.length === 0) throw new UsageError('slice needs a model');
   return {
@@ -111,7 +113,7 @@ function slice(words: readonly string[]): Command {
     out: values.output,
     settings: settingWords(values),
     report: values.report,
-    workers: values.workers === undefined ? Math.min(availableParallelism(), 4) : workerCount(values.workers),
+    workers: workerCount(values.workers),
   };
 }
 
@@ -145,7 +147,7 @@ function drawn(layer: string | undefined, plane: string | undefined): { layer: n
 }
 
 function orient(words: readonly string[]): Command {
-  const options = { ...settingOptions, ...report, 'layer-height': { type: 'string' } } as const;
+  const options = { ...settingOptions, ...report, ...workers, 'layer-height': { type: 'string' } } as const;
   const { values, positionals } = parsed({ args: [...words], options, allowPositionals: true });
   const height = values['layer-height'];
   const { files, sets } = settingWords(values);
@@ -154,6 +156,7 @@ function orient(words: readonly string[]): Command {
     model: oneModel('orient', positionals),
     settings: { files, sets: height === undefined ? sets : [...sets, `orientation.layer_height=${height}`] },
     report: values.report,
+    workers: workerCount(values.workers),
   };
 }
 
@@ -165,6 +168,7 @@ function compare(words: readonly string[]): Command {
     model: oneModel('compare', positionals),
     settings: settingWords(values),
     report: values.report,
+    workers: 1,
   };
 }
 
@@ -198,7 +202,9 @@ function oneModel(command: string, positionals: readonly string[]): string {
   return model;
 }
 
-function workerCount(word: string): number {
+/** As many engines as asked for, else as there are processors, at most 4. */
+function workerCount(word: string | undefined): number {
+  if (word === undefined) return Math.min(availableParallelism(), 4);
   return wholeNumber('--workers', word, 1, 64);
 }
 

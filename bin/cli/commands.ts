@@ -1,7 +1,7 @@
 // What each command does.
 import { readFileSync, realpathSync } from 'node:fs';
 import { partsOf } from '../../www/src/slicer/gcode.ts';
-import { Pool } from '../../www/src/slicer/pool.ts';
+import { Pool, type Progress } from '../../www/src/slicer/pool.ts';
 import { type Command, type SettingWords, UsageError, type Weighing } from './args.ts';
 import { openModel } from './disk-file.ts';
 import { FileError, reasonOf } from './errors.ts';
@@ -61,7 +61,7 @@ export async function draw({ model, what, out, settings }: Of<'draw'>): Promise<
 }
 
 export function orient(command: Weighing): Promise<void> {
-  return weigh(command, (pool, all) => pool.orient(all), directionTable);
+  return weigh(command, (pool, settings, progress) => pool.orient({ settings, progress }), directionTable);
 }
 
 export function compare(command: Weighing): Promise<void> {
@@ -70,17 +70,18 @@ export function compare(command: Weighing): Promise<void> {
 
 /** Opens the model, asks the engine to weigh possibilities, and shows them as a table. */
 async function weigh(
-  { model, settings: words, report }: Weighing,
-  ask: (pool: Pool, settings: string) => Promise<string>,
+  { model, settings: words, report, workers }: Weighing,
+  ask: (pool: Pool, settings: string, progress: (progress: Progress) => void) => Promise<string>,
   table: (figures: string) => string,
 ): Promise<void> {
   const source = openModel(model);
   refuseClash(report === undefined ? [] : [report], [model]);
-  await withPool(1, async (pool) => {
+  await withPool(workers, async (pool) => {
     const all = await resolve(pool, words);
     const reportOut = maybe(report);
     await pool.open([source]);
-    const figures = await ask(pool, all);
+    const progress = progressBar(process.stderr);
+    const figures = await ask(pool, all, progress.show).finally(progress.clear);
     reportOut?.write([figures, '\n']);
     reportOut?.finish();
     if (report !== '-') new Output('-').write([table(figures)]);

@@ -3,7 +3,7 @@ import { parentPort } from 'node:worker_threads';
 import * as engine from '../../www/src/generated/engine/foothold.js';
 import type { HelperReply, HelperRequest } from '../../www/src/messages.ts';
 import { watchPanics } from '../../www/src/slicer/errors.ts';
-import { help } from '../../www/src/slicer/helper.ts';
+import { Helper } from '../../www/src/slicer/helper.ts';
 import { serve } from '../../www/src/slicer/lane.ts';
 
 watchPanics(() => undefined);
@@ -11,7 +11,8 @@ watchPanics(() => undefined);
 const receive = serve<HelperRequest, HelperReply>(
   (module) => {
     engine.initSync({ module });
-    return (request) => help(engine, request);
+    const helper = new Helper(engine);
+    return (request) => helper.handle(request);
   },
   (message, transfer) => parentPort?.postMessage(message, transfer as never),
 );

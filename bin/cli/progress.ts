@@ -3,6 +3,7 @@ import type { Progress } from '../../www/src/slicer/pool.ts';
 
 const words: Record<Progress['stage'], string> = {
   read: 'reading',
+  orient: 'orienting',
   prepare: 'preparing',
   layers: 'slicing',
   join: 'joining',
@@ -13,7 +14,7 @@ const WIDTH = 30;
 /** One line of progress, as wide as every other. */
 export function bar({ stage, done, total }: Progress): string {
   const filled = total === 0 ? 0 : Math.round((WIDTH * done) / total);
-  const count = stage === 'layers' ? ` ${done}/${total}` : '';
+  const count = stage === 'layers' || stage === 'orient' ? ` ${done}/${total}` : '';
   return `${words[stage].padEnd(10)}[${'#'.repeat(filled).padEnd(WIDTH, '.')}]${count}`.padEnd(60);
 }
 

@@ -20,7 +20,7 @@ pub use transform::TransformError;
 use glam::Vec3;
 
 /// A triangle mesh with shared vertices, mm.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Mesh {
     /// Positions, mm; all finite.
     pub vertices: Vec<Vec3>,

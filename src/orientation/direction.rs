@@ -1,10 +1,10 @@
 //! Directions that may point up, and the rotation that brings them there.
 
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DMat3, DMat4, DVec3};
 use serde::{Deserialize, Serialize};
 
-use crate::mesh::Mesh;
 use crate::mesh::transform::rotation_to_up;
+use crate::mesh::{Mesh, TransformError};
 
 /// A direction of the part as it lies that may be turned up.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -37,11 +37,9 @@ pub fn rotation_for(up: DVec3) -> DMat3 {
     DMat3::from_mat4(rotation_to_up(up))
 }
 
-/// The mesh turned so that `up` points to +z; it stays where it is otherwise.
-pub(super) fn turned(mesh: &Mesh, up: DVec3) -> Mesh {
-    let rotation = rotation_for(up);
-    let turn = |v: &Vec3| (rotation * v.as_dvec3()).as_vec3();
-    Mesh { vertices: mesh.vertices.iter().map(turn).collect(), triangles: mesh.triangles.clone() }
+/// The mesh turned so that the unit vector `up` points to +z, about the origin.
+pub(super) fn turned(mesh: &Mesh, up: DVec3) -> Result<Mesh, TransformError> {
+    mesh.transformed(&DMat4::from_mat3(rotation_for(up)))
 }
 
 #[cfg(test)]

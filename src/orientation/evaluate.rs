@@ -78,7 +78,8 @@ pub fn evaluate(
     watch: Watch<'_>,
 ) -> Result<DirectionFigures, OrientationError> {
     super::check(mesh, options)?;
-    let turned = turned(mesh, DVec3::from(direction.up));
+    let turned = turned(mesh, DVec3::from(direction.up))
+        .map_err(|_| OrientationError::BadFigures { id: direction.id })?;
     let stack = LayerStack::new(&turned, options.layer_height);
     let mut descent = Descent::new(rules(options));
     let mut scars = Scars::new(&turned, &stack);

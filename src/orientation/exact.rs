@@ -14,10 +14,24 @@ pub const TIE_SHARE: f64 = 1e-6;
 /// O_1 by computation: 1 for each volume that equals the smallest within max([`TIE_MM3`],
 /// [`TIE_SHARE`] of the largest).
 pub fn minima(volumes: &[f64; DIRECTIONS]) -> [u8; DIRECTIONS] {
+    let limit = tie_limit(volumes);
+    volumes.map(|v| u8::from(v <= limit))
+}
+
+/// The first of any number of directions with the fewest structures among those of the smallest
+/// volume: what [`minima`], [`ratings`] and [`first_largest`] come to, without a fixed number. 0 if
+/// there are none.
+pub fn best(volumes: &[f64], structures: &[u32]) -> usize {
+    let limit = tie_limit(volumes);
+    let smallest = (0..volumes.len()).filter(|&i| volumes[i] <= limit);
+    smallest.min_by_key(|&i| structures[i]).unwrap_or(0)
+}
+
+/// Volumes up to this equal the smallest, mm3.
+fn tie_limit(volumes: &[f64]) -> f64 {
     let smallest = volumes.iter().fold(f64::INFINITY, |a, &b| a.min(b));
     let largest = volumes.iter().fold(0.0, |a: f64, &b| a.max(b));
-    let tie = TIE_MM3.max(TIE_SHARE * largest);
-    volumes.map(|v| u8::from(v - smallest <= tie))
+    smallest + TIE_MM3.max(TIE_SHARE * largest)
 }
 
 /// R_i = O_1\[i\] * (fewest structures among the chosen) / structures_i: our reading of
@@ -56,6 +70,14 @@ mod tests {
         let r = ratings(&[0, 1, 0, 1, 0, 0], &[1, 4, 1, 2, 1, 1]);
         assert_eq!(r, [0.0, 0.5, 0.0, 1.0, 0.0, 0.0]);
         assert_eq!(first_largest(&r), [0, 0, 0, 1, 0, 0]);
+    }
+
+    #[test]
+    fn the_rule_for_any_number_agrees_with_the_one_for_six() {
+        let (volumes, structures) = ([9.0, 5.0, 5.005, 9.0, 5.0, 7.0], [1, 4, 2, 1, 2, 1]);
+        let six = first_largest(&ratings(&minima(&volumes), &structures));
+        assert_eq!(six[best(&volumes, &structures)], 1);
+        assert_eq!(best(&[5.0, 4.0, 3.0, 3.0, 4.0, 5.0, 2.0, 2.0], &[1, 1, 1, 1, 1, 1, 3, 2]), 7);
     }
 
     #[test]

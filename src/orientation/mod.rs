@@ -55,11 +55,26 @@ pub enum OrientationMode {
     Auto,
 }
 
+/// Which of the directions compared may be chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum Candidates {
+    /// The six axes of the part as it lies [Karim].
+    #[default]
+    Axes,
+    /// The sides of the convex hull as well.
+    Hull,
+}
+
 crate::options! {
     /// How directions are compared.
     pub struct OrientationOptions {
         /// Keep the part as it lies, or turn it the way that needs the least support.
         mode: OrientationMode = OrientationMode::Keep, "Orientation";
+        /// What may be chosen: one of the six axes, or a side of the convex hull too, which may
+        /// leave the part standing askew.
+        candidates: Candidates = Candidates::Axes, "Choose among";
         /// Layers of the base below part and supports; each counts with its volume.
         base_layers: u32 = 5, "Base layers", "", 0.0..=50.0;
         /// Surfaces that lean less than this from the vertical hold themselves.
@@ -72,6 +87,18 @@ crate::options! {
         speck_width: f64 = 0.45, "Speck width", "mm", 0.0..=5.0;
         /// Diameter of the filament whose length is shown.
         filament_diameter: f64 = 1.75, "Filament diameter", "mm", 0.5..=5.0;
+    }
+}
+
+impl OrientationOptions {
+    /// The same, without the directions that could not be chosen anyway.
+    #[must_use]
+    pub fn for_choice(&self) -> OrientationOptions {
+        let hull_directions = match self.candidates {
+            Candidates::Axes => 0,
+            Candidates::Hull => self.hull_directions,
+        };
+        OrientationOptions { hull_directions, ..self.clone() }
     }
 }
 

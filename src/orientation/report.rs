@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::evaluate::DirectionFigures;
 use super::net::{DIRECTIONS, Net, ScaledVolumes};
-use super::{OrientationError, OrientationOptions, exact};
+use super::{Candidates, OrientationError, OrientationOptions, exact};
 
 /// The directions with their figures, and the choice; the object `orientation` of a report.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -22,7 +22,8 @@ pub struct OrientationReport {
     pub o2: [u8; DIRECTIONS],
     /// O_1 by computation; it wins where the network differs.
     pub exact: [u8; DIRECTIONS],
-    /// Id of the chosen direction.
+    /// Id of the chosen direction: by O_2, or by the exact rule among all where the hull's sides may
+    /// be chosen.
     pub chosen: u32,
     /// What a person should know about the figures; part of the whole report's warnings.
     #[serde(skip)]
@@ -78,7 +79,14 @@ fn choose_with(
     let (o1, exact) = (net.minima(&scaled), exact::minima(&volumes));
     let r = exact::ratings(&exact, &six.map(|f| f.structures));
     let o2 = exact::first_largest(&r);
-    let chosen = o2.iter().zip(1..).find(|(one, _)| **one == 1).map_or(1, |(_, id)| id);
+    let chosen = match options.candidates {
+        Candidates::Axes => o2.iter().zip(1..).find(|(one, _)| **one == 1).map_or(1, |(_, id)| id),
+        Candidates::Hull => {
+            let volumes: Vec<f64> = figures.iter().map(|f| f.total_mm3).collect();
+            let structures: Vec<u32> = figures.iter().map(|f| f.structures).collect();
+            figures[exact::best(&volumes, &structures)].id
+        }
+    };
     mark_pareto(&mut figures);
     let remarks = remarks(&figures, o1, exact);
     let layer_height_mm = options.layer_height;

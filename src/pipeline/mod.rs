@@ -49,6 +49,15 @@ pub struct NamedModel {
     pub name: String,
     /// The checked mesh and what was found in it.
     pub model: LoadedModel,
+    /// Its directions, where they were computed before, with the job's orientation options.
+    pub orientation: Option<OrientationReport>,
+}
+
+impl NamedModel {
+    /// A model whose directions are not known.
+    pub fn new(name: impl Into<String>, model: LoadedModel) -> NamedModel {
+        NamedModel { name: name.into(), model, orientation: None }
+    }
 }
 
 /// Why a job cannot be done.

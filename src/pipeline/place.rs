@@ -54,9 +54,7 @@ pub fn place_on_bed(models: &[&Mesh], printer: &PrinterOptions) -> Result<Placed
     let placements: Vec<DMat4> = moves.map(DMat4::from_translation).collect();
     let mut mesh = Mesh::default();
     for (model, placement) in models.iter().zip(&placements) {
-        let by = placement.w_axis.truncate();
-        let vertices = model.vertices.iter().map(|v| (v.as_dvec3() + by).as_vec3()).collect();
-        mesh.append(&Mesh { vertices, triangles: model.triangles.clone() });
+        mesh.append(&model.transformed(placement).expect("what fits the bed is within reach"));
     }
     Ok(Placed { mesh, placements })
 }

@@ -43,23 +43,18 @@ pub struct RangePlan {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Share {
     plan: RangePlan,
-    vertices: Vec<[f32; 3]>,
-    triangles: Vec<[u32; 3]>,
+    mesh: Mesh,
 }
 
 impl Share {
     /// The plan with those triangles of the mesh, in mesh order, that its planes cross.
     pub fn new(plan: RangePlan, mesh: &Mesh, triangles: &[u32]) -> Share {
-        let Mesh { vertices, triangles } = mesh.subset(triangles.iter().map(|&t| t as usize));
-        let vertices = vertices.iter().map(|v| v.to_array()).collect();
-        Share { plan, vertices, triangles }
+        Share { plan, mesh: mesh.subset(triangles.iter().map(|&t| t as usize)) }
     }
 
     /// Works the range.
     pub fn slice(self, clock: Clock) -> RangeResult {
-        let vertices = self.vertices.into_iter().map(glam::Vec3::from_array).collect();
-        let mesh = Mesh { vertices, triangles: self.triangles };
-        slice_range(&self.plan, &mesh, 0..mesh.triangles.len() as u32, clock)
+        slice_range(&self.plan, &self.mesh, 0..self.mesh.triangles.len() as u32, clock)
     }
 }
 

@@ -1,10 +1,12 @@
 //! Turning models the way they print best.
 
-use glam::{DMat3, DMat4, DVec3};
+use glam::{DMat4, DVec3};
 
 use super::{JobError, NamedModel, Warning};
 use crate::mesh::Mesh;
-use crate::orientation::{OrientationMode, OrientationOptions, OrientationReport, orient, rotation_for};
+use crate::orientation::{
+    OrientationError, OrientationMode, OrientationOptions, OrientationReport, orient, rotation_for,
+};
 use crate::settings::Settings;
 
 /// Models as they will stand on the bed, before they are placed.
@@ -20,34 +22,42 @@ pub(super) struct Turned {
 /// Turns each model as `orientation.mode` asks.
 pub(super) fn turn_models(models: &[NamedModel], settings: &Settings) -> Result<Turned, JobError> {
     let mut turned = Turned { meshes: Vec::new(), turns: Vec::new(), report: None, warnings: Vec::new() };
-    for NamedModel { name, model } in models {
-        match settings.orientation.mode {
-            OrientationMode::Keep => {
-                turned.turns.push(DMat4::IDENTITY);
-                turned.meshes.push(model.mesh.clone());
-            }
-            OrientationMode::Auto => {
-                let (mesh, turn, report) = turn_best(&model.mesh, &settings.orientation)?;
-                let told =
-                    report.remarks.iter().map(|r| Warning::on_job(r.code, format!("{name}: {}", r.message)));
-                turned.warnings.extend(told);
-                turned.turns.push(turn);
-                turned.meshes.push(mesh);
-                turned.report.get_or_insert(report);
-            }
-        }
+    for model in models {
+        let turn = match settings.orientation.mode {
+            OrientationMode::Keep => DMat4::IDENTITY,
+            OrientationMode::Auto => best_turn(model, &settings.orientation, &mut turned)?,
+        };
+        let mesh = model.model.mesh.transformed(&turn);
+        turned.meshes.push(mesh.expect("parts that are turned are refused far within reach"));
+        turned.turns.push(turn);
     }
     Ok(turned)
 }
 
-fn turn_best(
-    mesh: &Mesh,
+/// The turn of the chosen direction; a part that no directions can be compared for stays as it lies.
+fn best_turn(
+    NamedModel { name, model, orientation }: &NamedModel,
     options: &OrientationOptions,
-) -> Result<(Mesh, DMat4, OrientationReport), JobError> {
-    let report = orient(mesh, options, &mut |_, _| true).map_err(JobError::Orientation)?;
+    told: &mut Turned,
+) -> Result<DMat4, JobError> {
+    let known = orientation.clone().map(Ok);
+    let report = match known.unwrap_or_else(|| orient(&model.mesh, &options.for_choice(), &mut |_, _| true)) {
+        Ok(report) => report,
+        Err(cause) if keeps_the_part(&cause) => {
+            let message = format!("{name}: {cause}; it is printed as it lies");
+            told.warnings.push(Warning::on_job("orientation_kept", message));
+            return Ok(DMat4::IDENTITY);
+        }
+        Err(cause) => return Err(JobError::Orientation(cause)),
+    };
+    let remarks = report.remarks.iter();
+    told.warnings.extend(remarks.map(|r| Warning::on_job(r.code, format!("{name}: {}", r.message))));
     let up = report.chosen_figures().map_or(DVec3::Z, |f| DVec3::from_array(f.up));
-    let rotation: DMat3 = rotation_for(up);
-    let turn = DMat4::from_mat3(rotation);
-    let vertices = mesh.vertices.iter().map(|v| (rotation * v.as_dvec3()).as_vec3()).collect();
-    Ok((Mesh { vertices, triangles: mesh.triangles.clone() }, turn, report))
+    told.report.get_or_insert(report);
+    Ok(DMat4::from_mat3(rotation_for(up)))
+}
+
+/// Whether a part can be printed all the same, as it lies.
+fn keeps_the_part(cause: &OrientationError) -> bool {
+    matches!(cause, OrientationError::LayerAbovePart { .. } | OrientationError::TooManyLayers { .. })
 }

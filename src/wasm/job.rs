@@ -23,7 +23,8 @@ impl Job {
     pub fn new(models: Vec<Model>, names: Vec<String>, settings: &str) -> Result<Job, Thrown> {
         let settings = settings_from(settings)?;
         let parse_ms: f64 = models.iter().map(|m| m.parse_ms).sum();
-        let named = models.into_iter().zip(names).map(|(m, name)| NamedModel { name, model: m.inner });
+        let orientation = &settings.orientation;
+        let named = models.into_iter().zip(names).map(|(m, name)| m.named(name, orientation));
         let named: Vec<NamedModel> = named.collect();
         let mut inner = pipeline::Job::new(&named, settings, &now).map_err(job_error)?;
         inner.add_parse_time(parse_ms);

@@ -11,7 +11,7 @@ mod scene;
 
 pub use convert::Thrown;
 pub use job::{Chunk, Job, JobResult, slice_share};
-pub use model::{Model, ModelReader};
+pub use model::{Model, ModelReader, SharedMesh};
 pub use scene::Scene;
 
 use wasm_bindgen::prelude::*;

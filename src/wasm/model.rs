@@ -4,8 +4,11 @@ use wasm_bindgen::prelude::*;
 
 use super::convert::{Thrown, internal_error, model_error, now, orientation_error, settings_from};
 use super::scene::Scene;
-use crate::mesh::{LoadedModel, StlReader};
-use crate::orientation::orient;
+use crate::mesh::{LoadedModel, Mesh, StlReader};
+use crate::orientation::{
+    Direction, DirectionFigures, OrientationOptions, OrientationReport, candidates, choose, evaluate,
+};
+use crate::pipeline::NamedModel;
 use crate::view::{ModelPicture, Viewpoint};
 
 /// Reads an STL file from chunks of any size.
@@ -37,7 +40,7 @@ impl ModelReader {
         let started = now();
         let parsed = self.inner.finish().map_err(model_error)?;
         let inner = LoadedModel::new(parsed).map_err(model_error)?;
-        Ok(Model { inner, parse_ms: self.busy_ms + now() - started })
+        Ok(Model { inner, parse_ms: self.busy_ms + now() - started, oriented: None })
     }
 }
 
@@ -46,6 +49,16 @@ impl ModelReader {
 pub struct Model {
     pub(super) inner: LoadedModel,
     pub(super) parse_ms: f64,
+    /// Its directions and the options that they were compared with.
+    oriented: Option<(OrientationOptions, OrientationReport)>,
+}
+
+impl Model {
+    /// The model for a job; directions that were compared in another way are of no use to it.
+    pub(super) fn named(self, name: String, options: &OrientationOptions) -> NamedModel {
+        let known = self.oriented.filter(|(compared, _)| compared == options);
+        NamedModel { orientation: known.map(|(_, report)| report), ..NamedModel::new(name, self.inner) }
+    }
 }
 
 #[wasm_bindgen]
@@ -70,16 +83,67 @@ impl Model {
         Scene::of_model(ModelPicture::new(&self.inner.mesh, viewpoint))
     }
 
-    /// The six directions, sides of the hull and the choice, as JSON (`OrientationReport`);
+    /// The directions to compare, x, y, z of the vector that points up for id 1, 2 and so on: the
+    /// six axes, then sides of the hull. `all` as well those that may only be shown, not chosen.
     /// `settings` is JSON. Throws a `ModelError` or a `SettingsError`.
-    pub fn orient(&self, settings: &str) -> Result<String, Thrown> {
+    pub fn directions(&self, settings: &str, all: bool) -> Result<Vec<f64>, Thrown> {
         let options = settings_from(settings)?.orientation;
-        let report = orient(&self.inner.mesh, &options, &mut |_, _| true).map_err(orientation_error)?;
-        serde_json::to_string(&report).map_err(internal_error)
+        let options = if all { options } else { options.for_choice() };
+        let found = candidates(&self.inner.mesh, &options).map_err(orientation_error)?;
+        Ok(found.iter().flat_map(|d| d.up).collect())
+    }
+
+    /// Figures of one direction for `choose`.
+    pub fn evaluate(&self, settings: &str, id: u32, up: &[f64]) -> Result<Vec<u8>, Thrown> {
+        evaluated(&self.inner.mesh, settings, id, up)
+    }
+
+    /// Chooses among evaluated directions: the report as JSON (`OrientationReport`). A job of this
+    /// model with the same settings turns it that way without comparing again.
+    pub fn choose(&mut self, settings: &str, figures: Vec<js_sys::Uint8Array>) -> Result<String, Thrown> {
+        let options = settings_from(settings)?.orientation;
+        let figures = figures.iter().map(|bytes| postcard::from_bytes(&bytes.to_vec()));
+        let figures: Vec<DirectionFigures> = figures.collect::<Result<_, _>>().map_err(internal_error)?;
+        let report = choose(figures, &options).map_err(orientation_error)?;
+        let text = serde_json::to_string(&report).map_err(internal_error)?;
+        self.oriented = Some((options, report));
+        Ok(text)
+    }
+
+    /// The model's triangles as bytes for a `SharedMesh` in another engine.
+    pub fn share(&self) -> Result<Vec<u8>, Thrown> {
+        postcard::to_allocvec(&self.inner.mesh).map_err(internal_error)
     }
 
     /// A copy of the model.
     pub fn clone_model(&self) -> Model {
-        Model { inner: self.inner.clone(), parse_ms: self.parse_ms }
+        Model { inner: self.inner.clone(), parse_ms: self.parse_ms, oriented: self.oriented.clone() }
     }
+}
+
+/// A mesh that another engine shared, to evaluate directions of.
+#[wasm_bindgen]
+pub struct SharedMesh {
+    inner: Mesh,
+}
+
+#[wasm_bindgen]
+impl SharedMesh {
+    /// The mesh that `Model.share` wrote.
+    #[wasm_bindgen(constructor)]
+    pub fn new(bytes: &[u8]) -> Result<SharedMesh, Thrown> {
+        Ok(SharedMesh { inner: postcard::from_bytes(bytes).map_err(internal_error)? })
+    }
+
+    /// Figures of one direction for `Model.choose`.
+    pub fn evaluate(&self, settings: &str, id: u32, up: &[f64]) -> Result<Vec<u8>, Thrown> {
+        evaluated(&self.inner, settings, id, up)
+    }
+}
+
+fn evaluated(mesh: &Mesh, settings: &str, id: u32, up: &[f64]) -> Result<Vec<u8>, Thrown> {
+    let options = settings_from(settings)?.orientation;
+    let up = <[f64; 3]>::try_from(up).map_err(internal_error)?;
+    let figures = evaluate(mesh, &Direction { id, up }, &options, &mut |_, _| true);
+    postcard::to_allocvec(&figures.map_err(orientation_error)?).map_err(internal_error)
 }

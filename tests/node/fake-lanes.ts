@@ -1,5 +1,5 @@
 // Lanes without an engine: layer k has the text "layer k\n", whoever slices it.
-import type { HelperReply, HelperRequest, LeadReply, LeadRequest, Range } from '../../www/src/messages.ts';
+import type { Evaluation, HelperReply, HelperRequest, LeadReply, LeadRequest, Range } from '../../www/src/messages.ts';
 import { EngineError, toFailure } from '../../www/src/slicer/errors.ts';
 import { type HelperLane, type LeadLane, LocalLane } from '../../www/src/slicer/lane.ts';
 import type { LaneMaker } from '../../www/src/slicer/pool.ts';
@@ -11,6 +11,8 @@ export interface FakeOptions {
   /** Called before a range is sliced; may throw. */
   readonly before?: (who: string, range: Range) => void;
   readonly failToOpen?: boolean;
+  /** Directions to compare when all are asked for; none: the part can't be turned. */
+  readonly directions?: number;
 }
 
 /** A maker of fake lanes and a log of what they did. */
@@ -18,6 +20,7 @@ export function fakeLanes({
   layers,
   before,
   failToOpen,
+  directions,
 }: FakeOptions): LaneMaker & { log: string[]; open: () => number } {
   const log: string[] = [];
   let open = 0;
@@ -57,12 +60,30 @@ export function fakeLanes({
         return { kind: 'end' };
       case 'settings':
         return { kind: 'settings', settings: '{}' };
+      case 'directions':
+        if (directions === undefined) throw expected('ModelError', 'flat');
+        return { kind: 'directions', ups: Array.from({ length: request.all ? directions : 6 }, (_, k) => [k, 0, 1]) };
+      case 'mesh':
+        return { kind: 'mesh', mesh: new Uint8Array([7]) };
+      case 'evaluate':
+        before?.('lead', { first: request.id, last: request.id });
+        return { kind: 'evaluate', figures: evaluated(request) };
+      case 'choose':
+        return { kind: 'choose', report: request.figures.map((it) => it.join(' ')).join(', ') };
       default:
         throw new Error(`not faked: ${request.kind}`);
     }
   };
 
   const help = (request: HelperRequest): HelperReply => {
+    if (request.kind === 'mesh') {
+      log.push(`helper mesh ${request.mesh[0]}`);
+      return { kind: 'mesh' };
+    }
+    if (request.kind === 'evaluate') {
+      log.push('helper evaluate');
+      return { kind: 'evaluate', figures: evaluated(request) };
+    }
     const range = JSON.parse(new TextDecoder().decode(request.share)) as Range;
     before?.('helper', range);
     log.push('helper slice');
@@ -88,6 +109,9 @@ export function fakeLanes({
     helper: () => counted(new LocalLane<HelperRequest, HelperReply>(help, pause)),
   };
 }
+
+/** The id and the x that it came with. */
+const evaluated = ({ id, up }: Evaluation): Uint8Array => new Uint8Array([id, up[0]]);
 
 const pause = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));
 

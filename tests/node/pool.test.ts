@@ -128,3 +128,40 @@ test('a layer comes with the text that joins it to the one before', async () => 
   const layer = (k: number): string => Buffer.from(layerOf(gcode, k)).toString();
   expect([layer(0), layer(7), layer(29)]).toEqual(['M83\n<layer 0\n', 'M83\n|layer 7\n', 'M83\n|layer 29\n']);
 });
+
+const eight = '1 0, 2 1, 3 2, 4 3, 5 4, 6 5, 7 6, 8 7';
+
+test.each([1, 2, 5])('%d engines evaluate each direction once, in the order of their ids', async (workers) => {
+  const lanes = fakeLanes({ layers: 1, directions: 8 });
+  const pool = new Pool(lanes, workers);
+  await pool.open(sources);
+  const seen: Progress[] = [];
+  expect(await pool.orient({ settings: '{}', progress: (progress) => seen.push(progress) })).toBe(eight);
+  expect(lanes.log.filter((it) => it.endsWith('evaluate'))).toHaveLength(8);
+  expect(lanes.log.filter((it) => it === 'helper mesh 7')).toHaveLength(workers - 1);
+  expect(lanes.open()).toBe(1);
+  const done = seen.filter(({ stage }) => stage === 'orient').map((it) => it.done);
+  expect(done).toEqual([0, 1, 2, 3, 4, 5, 6, 7, 8]);
+});
+
+test('a comparison of directions can be cancelled, and the next one starts anew', async () => {
+  const cancel = new AbortController();
+  const lanes = fakeLanes({ layers: 1, directions: 8, before: (_, { first }) => first > 2 && cancel.abort() });
+  const pool = new Pool(lanes, 1);
+  await pool.open(sources);
+  await expect(pool.orient({ settings: '{}', signal: cancel.signal })).rejects.toThrow('cancelled');
+  expect(lanes.open()).toBe(0);
+  expect(await pool.orient({ settings: '{}' })).toBe(eight);
+});
+
+test('a job that turns its models compares only what it may choose, and goes on where it can not', async () => {
+  const settings = JSON.stringify({ orientation: { mode: 'auto' } });
+  for (const directions of [8, undefined]) {
+    const lanes = fakeLanes(directions === undefined ? { layers: 30 } : { layers: 30, directions });
+    const pool = new Pool(lanes, 2);
+    await pool.open(sources);
+    expect(text(await pool.slice({ settings }))).toBe(wanted(30));
+    expect(lanes.log.filter((it) => it.endsWith('evaluate'))).toHaveLength(directions === undefined ? 0 : 6);
+    expect(lanes.log.includes('lead choose')).toBe(directions !== undefined);
+  }
+});

@@ -15,6 +15,7 @@ test('the progress line has the same width at every stage', () => {
 test('progress only grows from stage to stage', () => {
   const stages = [
     { stage: 'read', done: 0, total: 0 },
+    { stage: 'orient', done: 3, total: 6 },
     { stage: 'prepare', done: 0, total: 9 },
     { stage: 'layers', done: 1, total: 9 },
     { stage: 'layers', done: 9, total: 9 },

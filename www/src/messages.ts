@@ -35,6 +35,16 @@ export interface LegendEntry {
   readonly length_mm: number;
 }
 
+/** The vector of a model that points up. */
+export type Up = readonly [number, number, number];
+
+/** One direction to be evaluated; ids count from 1. */
+export interface Evaluation {
+  readonly settings: string;
+  readonly id: number;
+  readonly up: Up;
+}
+
 /** Requests to the lead lane, which holds the models and the job. */
 export type LeadRequest =
   | { readonly kind: 'open'; readonly sources: readonly ModelSource[] }
@@ -48,7 +58,16 @@ export type LeadRequest =
   | { readonly kind: 'end' }
   | { readonly kind: 'drawLayer'; readonly layer: number }
   | { readonly kind: 'drawPlane'; readonly spec: string }
-  | { readonly kind: 'orient'; readonly settings: string }
+  /** The directions of a model to compare; `all` as well those that may only be shown, not chosen. */
+  | { readonly kind: 'directions'; readonly model: number; readonly settings: string; readonly all: boolean }
+  | ({ readonly kind: 'evaluate'; readonly model: number } & Evaluation)
+  | {
+      readonly kind: 'choose';
+      readonly model: number;
+      readonly settings: string;
+      readonly figures: readonly Uint8Array[];
+    }
+  | { readonly kind: 'mesh'; readonly model: number }
   | { readonly kind: 'compare' }
   | { readonly kind: 'picture'; readonly view: PictureView }
   | { readonly kind: 'paint'; readonly camera: CameraNumbers; readonly theme: Theme };
@@ -66,7 +85,10 @@ export type LeadReply =
   | { readonly kind: 'end' }
   | { readonly kind: 'drawLayer'; readonly svg: string }
   | { readonly kind: 'drawPlane'; readonly svg: string }
-  | { readonly kind: 'orient'; readonly report: string }
+  | { readonly kind: 'directions'; readonly ups: readonly Up[] }
+  | { readonly kind: 'evaluate'; readonly figures: Uint8Array }
+  | { readonly kind: 'choose'; readonly report: string }
+  | { readonly kind: 'mesh'; readonly mesh: Uint8Array }
   | { readonly kind: 'compare'; readonly report: string }
   | { readonly kind: 'picture'; readonly bounds: Bounds }
   | { readonly kind: 'paint'; readonly bitmap: ImageBitmap };
@@ -88,9 +110,15 @@ export interface Joined {
   readonly pieces: Uint32Array;
 }
 
-/** Requests to a helper lane, which keeps nothing between them. */
-export type HelperRequest = { readonly kind: 'slice'; readonly share: Uint8Array };
-export type HelperReply = { readonly kind: 'slice'; readonly meta: Uint8Array } & SlicedRange;
+/** Requests to a helper lane, which keeps nothing between them but the mesh whose directions it evaluates. */
+export type HelperRequest =
+  | { readonly kind: 'slice'; readonly share: Uint8Array }
+  | { readonly kind: 'mesh'; readonly mesh: Uint8Array }
+  | ({ readonly kind: 'evaluate' } & Evaluation);
+export type HelperReply =
+  | ({ readonly kind: 'slice'; readonly meta: Uint8Array } & SlicedRange)
+  | { readonly kind: 'mesh' }
+  | { readonly kind: 'evaluate'; readonly figures: Uint8Array };
 
 /** Requests to the view lane, which owns the canvas of the layer view. */
 export type ViewRequest =

@@ -120,6 +120,8 @@ export function shareOf({ stage, done, total }: Progress): number {
   switch (stage) {
     case 'read':
       return 0;
+    case 'orient':
+      return 0.04 * (total === 0 ? 0 : done / total);
     case 'prepare':
       return 0.05;
     case 'layers':

@@ -40,7 +40,7 @@ export const en = {
     cancel: 'Cancel',
     download: 'Download G-code',
     progress: 'Progress',
-    stages: { read: 'Reading', prepare: 'Preparing', layers: 'Slicing', join: 'Writing' },
+    stages: { read: 'Reading', orient: 'Orienting', prepare: 'Preparing', layers: 'Slicing', join: 'Writing' },
     layers: (done: number, total: number) => `layer ${done} of ${total}`,
     stale: 'Settings have changed: slice again to use them.',
     cancelled: 'Cancelled.',

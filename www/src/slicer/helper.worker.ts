@@ -2,7 +2,7 @@
 import * as engine from '../generated/engine/foothold.js';
 import type { HelperReply, HelperRequest, ToLane } from '../messages.ts';
 import { watchPanics } from './errors.ts';
-import { help } from './helper.ts';
+import { Helper } from './helper.ts';
 import { serve } from './lane.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
@@ -12,7 +12,8 @@ watchPanics(console.warn);
 const receive = serve<HelperRequest, HelperReply>(
   (module) => {
     engine.initSync({ module });
-    return (request) => help(engine, request);
+    const helper = new Helper(engine);
+    return (request) => helper.handle(request);
   },
   (message, transfer) => self.postMessage(message, transfer),
 );

@@ -1,6 +1,15 @@
 // The lead lane's side of the conversation: it holds the models and the job.
 import type { Chunk, Job, Model, Scene } from '../generated/engine/foothold.js';
-import type { Bounds, CameraNumbers, LeadReply, LeadRequest, ModelSource, SlicedRange, Theme } from '../messages.ts';
+import type {
+  Bounds,
+  CameraNumbers,
+  LeadReply,
+  LeadRequest,
+  ModelSource,
+  SlicedRange,
+  Theme,
+  Up,
+} from '../messages.ts';
 import { canvasSize } from '../view/camera.ts';
 import { EngineError, toFailure } from './errors.ts';
 
@@ -47,8 +56,19 @@ export class Lead {
         return { kind: 'drawLayer', svg: this.#current().draw_layer(request.layer) };
       case 'drawPlane':
         return { kind: 'drawPlane', svg: this.#current().draw_plane(request.spec) };
-      case 'orient':
-        return { kind: 'orient', report: this.#first().orient(request.settings) };
+      case 'directions':
+        return {
+          kind: 'directions',
+          ups: vectors(this.#model(request.model).directions(request.settings, request.all)),
+        };
+      case 'evaluate': {
+        const { settings, id, up } = request;
+        return { kind: 'evaluate', figures: this.#model(request.model).evaluate(settings, id, Float64Array.from(up)) };
+      }
+      case 'choose':
+        return { kind: 'choose', report: this.#model(request.model).choose(request.settings, [...request.figures]) };
+      case 'mesh':
+        return { kind: 'mesh', mesh: this.#model(request.model).share() };
       case 'compare':
         return { kind: 'compare', report: this.#current().compare() };
       case 'picture':
@@ -114,15 +134,15 @@ export class Lead {
     return joined;
   }
 
-  #first(): Model {
-    const [model] = this.#models;
+  #model(index: number): Model {
+    const model = this.#models[index];
     if (model === undefined) throw new Error('there is no model');
     return model;
   }
 
   #picture(view: string): Bounds {
     this.#scene?.free();
-    this.#scene = this.#first().picture(view);
+    this.#scene = this.#model(0).picture(view);
     return boundsOf(this.#scene);
   }
 
@@ -178,6 +198,14 @@ export function taken(chunk: Chunk): SlicedRange {
   const range = { offsets: chunk.layer_offsets(), text: chunk.text() as Uint8Array<ArrayBuffer> };
   chunk.free();
   return range;
+}
+
+/** Triples of numbers as vectors. */
+function vectors(numbers: Float64Array): Up[] {
+  return Array.from({ length: numbers.length / 3 }, (_, k) => {
+    const [x = 0, y = 0, z = 0] = numbers.subarray(3 * k, 3 * k + 3);
+    return [x, y, z];
+  });
 }
 
 export function boundsOf(scene: Scene): Bounds {

@@ -1,7 +1,17 @@
 // Runs a job over several lanes; used by the page and by the command line. The lead lane holds the models and
 // the job; helper lanes slice the ranges of layers that the lead prepares for them. What comes out does not
 // depend on how many lanes there are or on which of them sliced what.
-import type { Bounds, CameraNumbers, ModelSource, PictureView, Range, SlicedRange, Theme } from '../messages.ts';
+import type {
+  Bounds,
+  CameraNumbers,
+  Evaluation,
+  ModelSource,
+  PictureView,
+  Range,
+  SlicedRange,
+  Theme,
+  Up,
+} from '../messages.ts';
 import { EngineError } from './errors.ts';
 import type { Gcode } from './gcode.ts';
 import type { HelperLane, LeadLane } from './lane.ts';
@@ -12,16 +22,16 @@ export interface LaneMaker {
   helper(): HelperLane;
 }
 
-export type Stage = 'read' | 'prepare' | 'layers' | 'join';
+export type Stage = 'read' | 'orient' | 'prepare' | 'layers' | 'join';
 
-/** How far a job is; `done` of `total` layers in the stage "layers". */
+/** How far a job is; `done` of `total` directions in the stage "orient", of layers in "layers". */
 export interface Progress {
   readonly stage: Stage;
   readonly done: number;
   readonly total: number;
 }
 
-export interface SliceOptions {
+export interface JobOptions {
   /** All settings, as JSON. */
   readonly settings: string;
   readonly signal?: AbortSignal;
@@ -80,14 +90,8 @@ export class Pool {
   }
 
   /** Slices the open models. Rejects with an EngineError, or an AbortError once `signal` says so. */
-  async slice({ settings, signal, progress }: SliceOptions): Promise<Gcode> {
-    const cancelled = cancellation(signal);
-    const sliced = Promise.race([this.#slice(settings, progress ?? (() => undefined)), cancelled.promise]);
-    try {
-      return await this.#guard(sliced);
-    } finally {
-      cancelled.forget();
-    }
+  slice({ settings, signal, progress }: JobOptions): Promise<Gcode> {
+    return this.#cancellable(this.#slice(settings, progress ?? (() => undefined)), signal);
   }
 
   /** Begins a job and gives `draw` its lead; for pictures of layers and planes. */
@@ -105,10 +109,12 @@ export class Pool {
     return svg;
   }
 
-  /** Which way up the first model needs the least support: an OrientationReport as JSON. */
-  async orient(settings: string): Promise<string> {
-    await this.ready();
-    return (await this.#guard(this.#someLead().call({ kind: 'orient', settings }))).report;
+  /**
+   * Which way up the first model needs the least support: an OrientationReport as JSON. Rejects with an
+   * EngineError, or an AbortError once `signal` says so.
+   */
+  orient({ settings, signal, progress }: JobOptions): Promise<string> {
+    return this.#cancellable(this.#orient(settings, progress ?? (() => undefined)), signal);
   }
 
   /** What each kind of base layer comes to: a list of AdhesionReports as JSON. */
@@ -148,9 +154,10 @@ export class Pool {
     // This job talks to this lead only: a cancel closes it, and the job ends at its next word.
     const lead = this.#someLead();
     await this.ready();
+    if (turnsModels(settings)) await this.#turnModels(lead, settings, progress);
     progress({ stage: 'prepare', done: 0, total: 0 });
     const { partLayers } = await lead.call({ kind: 'begin', settings });
-    const helpers = this.#startHelpers(partLayers);
+    const helpers = this.#startHelpers(Math.ceil(partLayers / HELPER_LAYERS) - 1);
     let layers: number;
     let texts: Uint8Array<ArrayBuffer>[];
     try {
@@ -165,9 +172,43 @@ export class Pool {
     return { layers: texts, joined };
   }
 
-  /** Starts the engines that a job of so many layers can use; they start while the lead prepares. */
-  #startHelpers(layers: number): readonly HelperLane[] {
-    const useful = Math.ceil(layers / HELPER_LAYERS) - 1;
+  async #orient(settings: string, progress: (progress: Progress) => void): Promise<string> {
+    progress({ stage: 'read', done: 0, total: 0 });
+    const lead = this.#someLead();
+    await this.ready();
+    return await this.#compareDirections(lead, { model: 0, settings, all: true }, progress);
+  }
+
+  /** Chooses the directions that the job will turn the models by; what can't be turned is the job's to tell. */
+  async #turnModels(lead: LeadLane, settings: string, progress: (progress: Progress) => void): Promise<void> {
+    for (const model of this.#sources.keys()) {
+      try {
+        await this.#compareDirections(lead, { model, settings, all: false }, progress);
+      } catch (error) {
+        if (!(error instanceof EngineError) || error.fatal) throw error;
+      }
+    }
+  }
+
+  /** Evaluates the directions of a model in all engines, and lets the lead choose. */
+  async #compareDirections(
+    lead: LeadLane,
+    what: { readonly model: number; readonly settings: string; readonly all: boolean },
+    progress: (progress: Progress) => void,
+  ): Promise<string> {
+    const { ups } = await lead.call({ kind: 'directions', ...what });
+    const helpers = this.#startHelpers(ups.length - 1);
+    try {
+      const figures = await evaluateAll(lead, helpers, what, ups, progress);
+      const { model, settings } = what;
+      return (await lead.call({ kind: 'choose', model, settings, figures })).report;
+    } finally {
+      this.#closeHelpers(helpers);
+    }
+  }
+
+  /** Starts as many engines as are `useful` and allowed; they start while the lead prepares. */
+  #startHelpers(useful: number): readonly HelperLane[] {
     const count = Math.max(0, Math.min(this.#workers - 1, useful));
     const helpers = Array.from({ length: count }, () => this.#make.helper());
     for (const helper of helpers) this.#helpers.add(helper);
@@ -191,6 +232,16 @@ export class Pool {
       this.#someLead().call({ kind: 'open', sources: this.#sources }),
     );
     return { inspections, parse_ms };
+  }
+
+  /** The work's result, unless `signal` ends it before. */
+  async #cancellable<T>(work: Promise<T>, signal: AbortSignal | undefined): Promise<T> {
+    const cancelled = cancellation(signal);
+    try {
+      return await this.#guard(Promise.race([work, cancelled.promise]));
+    } finally {
+      cancelled.forget();
+    }
   }
 
   /**
@@ -283,6 +334,42 @@ async function helperWork(lead: LeadLane, helper: HelperLane, queue: LayerQueue,
     await lead.call({ kind: 'add', meta }, [meta.buffer as ArrayBuffer]);
     keep(range, sliced);
   }
+}
+
+/** Whether a job with these settings chooses which way up models are printed. */
+function turnsModels(settings: string): boolean {
+  const { orientation } = JSON.parse(settings) as { orientation?: { mode?: string } };
+  return orientation?.mode === 'auto';
+}
+
+/** Figures of all directions, in their order, whoever evaluated them. */
+async function evaluateAll(
+  lead: LeadLane,
+  helpers: readonly HelperLane[],
+  { model, settings }: { readonly model: number; readonly settings: string },
+  ups: readonly Up[],
+  progress: (progress: Progress) => void,
+): Promise<Uint8Array[]> {
+  const figures = new Array<Uint8Array>(ups.length);
+  const total = ups.length;
+  progress({ stage: 'orient', done: 0, total });
+  const left = ups.entries();
+  let done = 0;
+  const work = async (evaluate: (evaluation: Evaluation) => Promise<{ readonly figures: Uint8Array }>) => {
+    for (const [k, up] of left) {
+      figures[k] = (await evaluate({ settings, id: k + 1, up })).figures;
+      done++;
+      progress({ stage: 'orient', done, total });
+    }
+  };
+  const helping = async (helper: HelperLane, mesh: Uint8Array): Promise<void> => {
+    await helper.call({ kind: 'mesh', mesh });
+    await work((evaluation) => helper.call({ kind: 'evaluate', ...evaluation }));
+  };
+  const shared = helpers.length > 0 ? (await lead.call({ kind: 'mesh', model })).mesh : new Uint8Array();
+  const own = work((evaluation) => lead.call({ kind: 'evaluate', model, ...evaluation }));
+  await Promise.all([own, ...helpers.map((helper) => helping(helper, shared))]);
+  return figures;
 }
 
 function layersOf({ text, offsets }: SlicedRange): Uint8Array<ArrayBuffer>[] {
