@@ -39,7 +39,7 @@ export const de: Words = {
     cancel: 'Abbrechen',
     download: 'G-Code herunterladen',
     progress: 'Fortschritt',
-    stages: { read: 'Lesen', prepare: 'Vorbereiten', layers: 'Slicen', join: 'Schreiben' },
+    stages: { read: 'Lesen', orient: 'Ausrichten', prepare: 'Vorbereiten', layers: 'Slicen', join: 'Schreiben' },
     layers: (done, total) => `Schicht ${done} von ${total}`,
     stale: 'Die Einstellungen sind geändert: neu slicen, damit sie gelten.',
     cancelled: 'Abgebrochen.',

@@ -38,7 +38,7 @@ export const zh: Words = {
     cancel: '取消',
     download: '下载 G 代码',
     progress: '进度',
-    stages: { read: '读取', prepare: '准备', layers: '切片', join: '写入' },
+    stages: { read: '读取', orient: '选择朝向', prepare: '准备', layers: '切片', join: '写入' },
     layers: (done, total) => `第 ${done} 层，共 ${total} 层`,
     stale: '设置已更改：请重新切片使其生效。',
     cancelled: '已取消。',
