@@ -18,7 +18,7 @@ fn bead_area(width: f64) -> f64 {
 }
 
 fn layer(index: u32, paths: &[Path]) -> LayerInput<'_> {
-    LayerInput { index, print_z: 0.2 + 0.2 * f64::from(index), height: 0.2, paths, crosses_outline: &[] }
+    LayerInput { index, print_z: 0.2 + 0.2 * f64::from(index), height: 0.2, paths, ways: &[] }
 }
 
 fn square(role: Role, side: f64) -> Path {

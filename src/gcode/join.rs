@@ -221,8 +221,16 @@ impl<'a> Route<'a> {
         let z = micrometres(layer.print_z);
         let distance = self.at.distance(to);
         let mut moves = Vec::new();
-        Hop { to, from_z: self.z, to_z: z, distance, oozes_outside: true, retracted: self.retracted }
-            .moves(self.options, &mut moves);
+        Hop {
+            to,
+            via: &[],
+            from_z: self.z,
+            to_z: z,
+            distance,
+            oozes_outside: true,
+            retracted: self.retracted,
+        }
+        .moves(self.options, &mut moves);
         if layer.fan[0] != self.fan {
             moves.push(Move::Fan(layer.fan[0]));
         }

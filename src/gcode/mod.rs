@@ -38,6 +38,7 @@ pub use writer::type_name;
 
 use crate::polygon::{DVec2, dvec2};
 use crate::region::{Path, Role};
+use crate::toolpath::Way;
 
 /// One layer to be written.
 #[derive(Debug, Clone, Copy)]
@@ -50,10 +51,8 @@ pub struct LayerInput<'a> {
     pub height: f64,
     /// Beads in printing order.
     pub paths: &'a [Path],
-    /// For each path whether the way to it crosses an outline of the part; filament is pulled back
-    /// on such ways only, elsewhere what oozes stays inside. A path without an entry counts as
-    /// reached across an outline.
-    pub crosses_outline: &'a [bool],
+    /// The way to each path. A path without an entry is reached straight across an outline.
+    pub ways: &'a [Way],
 }
 
 /// A layer's text and what the rest of the program needs to know about it.

@@ -3,6 +3,7 @@
 use super::extrude::Feeder;
 use super::{FILAMENT_STEPS, GcodeOptions, LayerInput, LayerSummary, Move, Place, RoleUse, Stops};
 use crate::region::{Bead, Path, Role, Width};
+use crate::toolpath::Way;
 use std::collections::BTreeMap;
 
 /// Where a bead changes its width it is cut into pieces of one width each, so that flow and the
@@ -43,9 +44,10 @@ pub struct LayerPlan {
 /// Plans one layer. Paths without length are left out.
 pub fn plan_layer(layer: &LayerInput<'_>, options: &GcodeOptions) -> LayerPlan {
     let mut planner = Planner::new(layer, options);
-    let told = layer.crosses_outline.iter().copied().chain(std::iter::repeat(true));
-    for (path, crosses) in layer.paths.iter().zip(told) {
-        planner.path(path, crosses);
+    let across = Way::ACROSS;
+    let told = layer.ways.iter().chain(std::iter::repeat(&across));
+    for (path, way) in layer.paths.iter().zip(told) {
+        planner.path(path, way);
     }
     LayerPlan {
         index: layer.index,
@@ -88,6 +90,8 @@ struct Planner<'a> {
     /// State of the machine while the moves are laid down.
     start: Option<Place>,
     at: Place,
+    /// What is known of the way to the next bead.
+    via: Vec<Place>,
     crosses_outline: bool,
     role: Option<Role>,
     stated_width: Option<u32>,
@@ -108,6 +112,7 @@ impl<'a> Planner<'a> {
             layer_fan: 0,
             start: None,
             at: Place::default(),
+            via: Vec::new(),
             crosses_outline: false,
             role: None,
             stated_width: None,
@@ -120,9 +125,10 @@ impl<'a> Planner<'a> {
         planner
     }
 
-    fn path(&mut self, path: &Path, crosses_outline: bool) {
+    fn path(&mut self, path: &Path, way: &Way) {
         // A path too small to print leaves its way to the next one.
-        self.crosses_outline |= crosses_outline;
+        self.crosses_outline |= way.crosses_outline;
+        self.via.extend(way.via.iter().map(|&p| Place::of(p)));
         let places: Vec<Place> = path.points.iter().map(|&p| Place::of(p)).collect();
         let Some((&first, rest)) = places.split_first() else { return };
         if rest.iter().all(|&p| p == first) {
@@ -236,19 +242,30 @@ impl<'a> Planner<'a> {
         if self.start.is_none() {
             self.start = Some(to);
         } else if self.at != to {
-            let distance = self.at.distance(to);
-            let oozes_outside = self.crosses_outline;
-            let travel = Hop { to, from_z: self.z, to_z: self.z, distance, oozes_outside, retracted: 0 };
+            let stops = || std::iter::once(self.at).chain(self.via.iter().copied());
+            let distance = stops().zip(stops().skip(1).chain([to])).map(|(a, b)| a.distance(b)).sum();
+            let travel = Hop {
+                to,
+                via: &self.via,
+                from_z: self.z,
+                to_z: self.z,
+                distance,
+                oozes_outside: self.crosses_outline,
+                retracted: 0,
+            };
             travel.moves(self.options, &mut self.moves);
         }
+        self.via.clear();
         self.crosses_outline = false;
         self.at = to;
     }
 }
 
 /// A move without extrusion, with what goes before and after it.
-pub(super) struct Hop {
+pub(super) struct Hop<'a> {
     pub(super) to: Place,
+    /// Places on the way.
+    pub(super) via: &'a [Place],
     /// Heights of the nozzle before and after, micrometres.
     pub(super) from_z: i32,
     pub(super) to_z: i32,
@@ -260,7 +277,7 @@ pub(super) struct Hop {
     pub(super) retracted: i32,
 }
 
-impl Hop {
+impl Hop<'_> {
     /// Retracts and lifts if the way leaves the part and is long enough, travels, and undoes both.
     pub(super) fn moves(&self, options: &GcodeOptions, moves: &mut Vec<Move>) {
         let retraction = &options.retraction;
@@ -279,7 +296,9 @@ impl Hop {
             moves.push(Move::Lift { z: travel_z, feed: z_feed });
         }
         if self.distance > 0.0 {
-            moves.push(Move::Travel { to: self.to, feed: feed_rate(options.speed.travel) });
+            let feed = feed_rate(options.speed.travel);
+            moves.extend(self.via.iter().map(|&to| Move::Travel { to, feed }));
+            moves.push(Move::Travel { to: self.to, feed });
         }
         if travel_z != self.to_z {
             moves.push(Move::Lift { z: self.to_z, feed: z_feed });

@@ -33,7 +33,7 @@ impl Job {
     }
 
     fn bead_time(&self, index: u32, height: f64, paths: &[Path]) -> f64 {
-        let input = LayerInput { index, print_z: height, height, paths, crosses_outline: &[] };
+        let input = LayerInput { index, print_z: height, height, paths, ways: &[] };
         let used = layer_gcode(&input, &self.settings.gcode_options()).summary.by_role;
         used.values().map(|u| u.time_s).sum()
     }

@@ -107,7 +107,7 @@ pub(super) fn slice_range(
             print_z: spec.print_z,
             height: spec.height,
             paths: &paths.paths,
-            crosses_outline: &paths.crosses_outline,
+            ways: &paths.ways,
         };
         let written = layer_gcode(&input, &plan.settings.gcode_options());
         result.texts.push(written.text);

@@ -4,6 +4,8 @@ pub mod infill;
 pub mod medial;
 pub mod order;
 pub mod seam;
+pub mod travel;
 pub mod walls;
 
 pub use order::{LayerParts, LayerPaths, order_layer};
+pub use travel::Way;

@@ -1,6 +1,7 @@
 //! The printing order of a layer: island after island, walls from inside out, then the fills; within
 //! each group always the nearest next.
 
+use super::travel::Way;
 use crate::polygon::grid::{EdgeGrid, PointGrid};
 use crate::polygon::measure::Bounds;
 use crate::polygon::simplify::squared_distance_to_segment;
@@ -23,9 +24,8 @@ pub struct LayerParts {
 pub struct LayerPaths {
     /// The beads.
     pub paths: Vec<Path>,
-    /// Whether the straight way from the path before to `paths[i]` crosses the part's outline. The
-    /// way to the first path counts as crossing.
-    pub crosses_outline: Vec<bool>,
+    /// The way to each path from the one before. The way to the first path counts as crossing.
+    pub ways: Vec<Way>,
 }
 
 /// Order of the roles among the fills of an island.
@@ -43,8 +43,8 @@ pub fn order_layer(parts: LayerParts, outline: &PolygonSet) -> LayerPaths {
         order_walls(island.walls, &mut here, &mut paths);
         order_fills(island.fills, &mut here, &mut paths);
     }
-    let crosses_outline = find_crossings(&paths, outline);
-    LayerPaths { paths, crosses_outline }
+    let ways = find_ways(&paths, outline);
+    LayerPaths { paths, ways }
 }
 
 /// Where the nozzle stands after a path.
@@ -169,12 +169,13 @@ fn order_nearest(group: Vec<Path>, here: &mut DVec2, paths: &mut Vec<Path>) {
     }
 }
 
-fn find_crossings(paths: &[Path], outline: &PolygonSet) -> Vec<bool> {
+fn find_ways(paths: &[Path], outline: &PolygonSet) -> Vec<Way> {
     let edges: Vec<(DVec2, DVec2)> = outline.contours().iter().flat_map(|c| c.edges()).collect();
     let grid = EdgeGrid::new(&edges);
     let ways = paths.windows(2).map(|w| (end_of(&w[0]), w[1].points[0]));
-    let first = paths.first().map(|_| true);
-    first.into_iter().chain(ways.map(|(a, b)| grid.crosses(a, b))).collect()
+    let first = paths.first().map(|_| Way::ACROSS);
+    let straight = |(a, b)| Way { via: Vec::new(), crosses_outline: grid.crosses(a, b) };
+    first.into_iter().chain(ways.map(straight)).collect()
 }
 
 #[cfg(test)]
@@ -185,6 +186,10 @@ mod tests {
     fn ring(side: f64, role: Role) -> Path {
         let c = |x: f64, y: f64| dvec2(50.0 + side * x, 50.0 + side * y);
         Path::closed(role, vec![c(-0.5, -0.5), c(0.5, -0.5), c(0.5, 0.5), c(-0.5, 0.5)], 0.45)
+    }
+
+    fn crossings(layer: &LayerPaths) -> Vec<bool> {
+        layer.ways.iter().map(|w| w.crosses_outline).collect()
     }
 
     #[test]
@@ -199,7 +204,7 @@ mod tests {
         let lengths: Vec<f64> =
             ordered.paths.iter().map(|p| (p.length() / 4.0 * 10.0).round() / 10.0).collect();
         assert_eq!(lengths, [17.9, 18.7, 19.5]);
-        assert_eq!(ordered.crosses_outline, [true, false, false]);
+        assert_eq!(crossings(&ordered), [true, false, false]);
     }
 
     #[test]
@@ -219,6 +224,6 @@ mod tests {
         let dash = |x: f64| Path::open(Role::Infill, vec![dvec2(x, 2.0), dvec2(x + 1.0, 2.0)], 0.45);
         let fills = vec![dash(12.0), dash(1.0), dash(3.0)];
         let ordered = order_layer(LayerParts { fills, ..LayerParts::default() }, &two);
-        assert_eq!(ordered.crosses_outline, [true, false, true]);
+        assert_eq!(crossings(&ordered), [true, false, true]);
     }
 }
