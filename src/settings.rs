@@ -5,7 +5,10 @@ use std::fmt;
 use serde_json::{Map, Value};
 
 use crate::adhesion::AdhesionOptions;
-use crate::gcode::{FilamentOptions, GcodeOptions, PrinterOptions, RetractionOptions, SpeedOptions};
+use crate::gcode::{
+    AccelerationOptions, CoolingOptions, FilamentOptions, GcodeOptions, PrinterOptions, RetractionOptions,
+    SpeedOptions,
+};
 use crate::options::{Checked, OutOfRange, join_path};
 use crate::orientation::OrientationOptions;
 use crate::region::first_layer::FirstLayerOptions;
@@ -43,6 +46,10 @@ crate::options! {
         support: group SupportOptions;
         /// Speeds by role.
         speed: group SpeedOptions;
+        /// Accelerations by role.
+        acceleration: group AccelerationOptions;
+        /// Slowing down and blowing so that layers set.
+        cooling: group CoolingOptions;
         /// Pulling the filament back for travels.
         retraction: group RetractionOptions;
     }
@@ -133,6 +140,8 @@ impl Settings {
             filament: self.filament.clone(),
             speed: self.speed.clone(),
             retraction: self.retraction.clone(),
+            acceleration: self.acceleration.clone(),
+            cooling: self.cooling.clone(),
             first_layer_speed: self.first_layer.speed,
         }
     }

@@ -21,6 +21,13 @@ fn layer(index: u32, paths: &[Path]) -> LayerInput<'_> {
     LayerInput { index, print_z: 0.2 + 0.2 * f64::from(index), height: 0.2, paths, ways: &[] }
 }
 
+/// Without slowing down short layers, or blowing more at them.
+fn unhurried() -> GcodeOptions {
+    let mut options = GcodeOptions::default();
+    (options.cooling.min_layer_time, options.cooling.fan_below_layer_time) = (0.0, 0.0);
+    options
+}
+
 fn square(role: Role, side: f64) -> Path {
     let points = vec![dvec2(0.0, 0.0), dvec2(side, 0.0), dvec2(side, side), dvec2(0.0, side)];
     Path::closed(role, points, 0.45)
@@ -44,7 +51,7 @@ fn a_square_in_full() {
     // in 0.6471897 s: 0.6826156. Inner sides: 0.0308516 s over 0.5686153 mm, 19.4313847 mm in
     // 0.6477128 s: 0.6785644. Together 2.72236 s.
     let paths = [square(Role::OuterWall, 20.0)];
-    let made = layer_gcode(&layer(1, &paths), &GcodeOptions::default());
+    let made = layer_gcode(&layer(1, &paths), &unhurried());
     let expected = ";TYPE:External perimeter\n;WIDTH:0.45\nG1 X20 Y0 E0.67698 F1800\nG1 Y20 E0.67697\n\
                     G1 X0 E0.67698\nG1 Y0 E0.67697\n";
     assert_eq!(String::from_utf8_lossy(&made.text), expected);
@@ -61,7 +68,7 @@ fn a_square_in_full() {
 fn the_first_layer_has_its_own_speed_and_no_fan() {
     let paths = [square(Role::Infill, 20.0)];
     let feed = |index| {
-        let text = layer_gcode(&layer(index, &paths), &GcodeOptions::default()).text;
+        let text = layer_gcode(&layer(index, &paths), &unhurried()).text;
         String::from_utf8_lossy(&text)
             .split(" F")
             .nth(1)
@@ -95,7 +102,7 @@ fn long_travels_retract_and_short_ones_do_not() {
 
 #[test]
 fn a_bridge_has_its_own_fan() {
-    let mut options = GcodeOptions::default();
+    let mut options = unhurried();
     options.filament.fan_speed = 0.5;
     let paths = [square(Role::OuterWall, 10.0), square(Role::Bridge, 10.0), square(Role::Infill, 10.0)];
     let made = layer_gcode(&layer(1, &paths), &options);
@@ -210,8 +217,8 @@ proptest! {
             let (to, filament, feed) = match *step {
                 Move::Role(next) => { role = Some(next); continue }
                 Move::Width(next) => { width = Some(f64::from(next) / 1000.0); continue }
-                Move::Fan(_) => continue,
-                Move::Extrude { to, filament, feed } => (Some(to), filament, feed),
+                Move::Fan(_) | Move::Acceleration(_) => continue,
+                Move::Extrude { to, filament, feed } | Move::Wipe { to, filament, feed } => (Some(to), filament, feed),
                 Move::Travel { to, feed } => (Some(to), 0, feed),
                 Move::Filament { filament, feed } => (None, filament, feed),
                 Move::Lift { feed, .. } => (None, 0, feed),

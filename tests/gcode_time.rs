@@ -53,8 +53,7 @@ fn run_time(run: &[&ReadMove], printer: &PrinterOptions) -> f64 {
     for (i, step) in run.iter().enumerate() {
         let way = way(step);
         let steps = (way.length() / STEP).ceil().max(1.0) as usize;
-        let acceleration =
-            if step.filament_mm > 0.0 { printer.acceleration } else { printer.travel_acceleration };
+        let acceleration = acceleration(step, printer);
         let cruise = cruise(step, printer);
         if i > 0 {
             *limits.last_mut().expect("not empty") = corner(run[i - 1], step, printer);
@@ -78,23 +77,25 @@ fn way(step: &ReadMove) -> DVec2 {
     dvec2(step.to[0] - step.from[0], step.to[1] - step.from[1])
 }
 
+/// Marlin takes every move in the plane that turns the extruder for a bead.
+fn acceleration(step: &ReadMove, printer: &PrinterOptions) -> f64 {
+    match step.filament_mm {
+        0.0 => printer.travel_acceleration,
+        _ => step.acceleration.unwrap_or(printer.acceleration),
+    }
+}
+
 fn cruise(step: &ReadMove, printer: &PrinterOptions) -> f64 {
     let way = way(step);
     let by_axis = [way.x, way.y].map(|d| printer.max_speed_xy * way.length() / d.abs());
-    let by_filament = if step.filament_mm > 0.0 {
-        printer.max_speed_e * way.length() / step.filament_mm
-    } else {
-        f64::INFINITY
-    };
+    let by_filament = printer.max_speed_e * way.length() / step.filament_mm.abs();
     step.speed.min(by_axis[0]).min(by_axis[1]).min(by_filament)
 }
 
 /// Speed at a corner, written down from the angle between the edges.
 fn corner(last: &ReadMove, next: &ReadMove, printer: &PrinterOptions) -> f64 {
     let both = cruise(last, printer).min(cruise(next, printer));
-    let own =
-        |m: &ReadMove| if m.filament_mm > 0.0 { printer.acceleration } else { printer.travel_acceleration };
-    let acceleration = own(last).min(own(next));
+    let acceleration = acceleration(last, printer).min(acceleration(next, printer));
     let turn = way(last).angle_to(way(next)).abs();
     let sine = ((std::f64::consts::PI - turn) / 2.0).sin();
     let by_deviation = (acceleration * printer.junction_deviation * sine / (1.0 - sine).max(1e-300)).sqrt();
@@ -128,10 +129,13 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
     #[test]
-    fn the_estimate_agrees_with_the_simulation(paths in loops(), acceleration in 300.0..6000.0, travel in 300.0..6000.0) {
+    fn the_estimate_agrees_with_the_simulation(paths in loops(), acceleration in 300.0..6000.0, travel in 300.0..6000.0, walls in 300.0..6000.0, wipe in any::<bool>(), min_layer_time in 0.0..60.0) {
         let mut options = GcodeOptions::default();
         options.printer.acceleration = acceleration;
         options.printer.travel_acceleration = travel;
+        options.acceleration.outer_wall = walls;
+        options.retraction.wipe = wipe;
+        options.cooling.min_layer_time = min_layer_time;
         // Fast enough that small circles have to be slowed down.
         options.filament.max_volumetric_speed = 100.0;
         (options.speed.outer_wall, options.speed.inner_wall, options.speed.infill) = (120.0, 200.0, 200.0);

@@ -31,6 +31,8 @@ pub struct Limits {
     pub acceleration: f64,
     /// Acceleration of travels.
     pub travel_acceleration: f64,
+    /// Whether it stays when the acceleration of beads changes.
+    pub own_travel_acceleration: bool,
     /// Acceleration of retractions.
     pub retract_acceleration: f64,
     /// Acceleration of z.
@@ -53,6 +55,7 @@ impl Limits {
         Limits {
             acceleration: if own { printer.acceleration } else { smaller },
             travel_acceleration: if own { printer.travel_acceleration } else { smaller },
+            own_travel_acceleration: own,
             retract_acceleration: printer.retract_acceleration,
             z_acceleration: printer.z_acceleration,
             max_speed_xy: printer.max_speed_xy,
@@ -72,7 +75,8 @@ pub fn move_times(start: Place, z: i32, moves: &[Move], limits: &Limits) -> Vec<
     for (i, &step) in moves.iter().enumerate() {
         match step {
             Move::Role(_) | Move::Width(_) | Move::Fan(_) => {}
-            Move::Extrude { to, filament, feed } => {
+            Move::Acceleration(acceleration) => run.accelerate(f64::from(acceleration)),
+            Move::Extrude { to, filament, feed } | Move::Wipe { to, filament, feed } => {
                 run.push(i, at.way(to), feed, Some(f64::from(filament) / FILAMENT_STEPS));
                 at = to;
             }
@@ -135,6 +139,8 @@ struct Block {
 /// The moves since the last stop.
 struct Run<'a> {
     limits: &'a Limits,
+    /// Accelerations of beads and of travels in force.
+    accelerations: [f64; 2],
     blocks: Vec<Block>,
     /// Direction of the last move; the blocks are empty if there is none.
     direction: DVec2,
@@ -142,10 +148,21 @@ struct Run<'a> {
 
 impl<'a> Run<'a> {
     fn new(limits: &'a Limits) -> Self {
-        Run { limits, blocks: Vec::new(), direction: DVec2::ZERO }
+        let accelerations = [limits.acceleration, limits.travel_acceleration];
+        Run { limits, accelerations, blocks: Vec::new(), direction: DVec2::ZERO }
     }
 
-    /// Adds a move by `way`, with so many mm of filament or as a travel.
+    /// Beads accelerate like this from here on, and travels too if the firmware knows one value only.
+    fn accelerate(&mut self, acceleration: f64) {
+        let [beads, travels] = &mut self.accelerations;
+        *beads = acceleration;
+        if !self.limits.own_travel_acceleration {
+            *travels = acceleration;
+        }
+    }
+
+    /// Adds a move by `way`, with so many mm of filament (pulled ones negative) or as a travel. A
+    /// firmware takes every move with filament for a bead.
     fn push(&mut self, index: usize, way: DVec2, feed: u32, filament: Option<f64>) {
         let length = way.length();
         if length <= 0.0 {
@@ -154,13 +171,13 @@ impl<'a> Run<'a> {
         let direction = way / length;
         let fastest_axis = self.limits.max_speed_xy / direction.abs().max_element();
         let fastest_filament = match filament {
-            Some(pushed) if pushed > 0.0 => self.limits.max_speed_e * length / pushed,
+            Some(moved) if moved != 0.0 => self.limits.max_speed_e * length / moved.abs(),
             _ => f64::INFINITY,
         };
         let cruise = mm_s(feed).min(fastest_axis).min(fastest_filament);
         let acceleration = match filament {
-            Some(_) => self.limits.acceleration,
-            None => self.limits.travel_acceleration,
+            Some(_) => self.accelerations[0],
+            None => self.accelerations[1],
         };
         let mut block = Block { index, length, acceleration, cruise, entry2: 0.0 };
         if let Some(last) = self.blocks.last() {
@@ -217,6 +234,7 @@ mod tests {
         Limits {
             acceleration: 1000.0,
             travel_acceleration: 1000.0,
+            own_travel_acceleration: true,
             retract_acceleration: 1000.0,
             z_acceleration: 100.0,
             max_speed_xy: 1000.0,

@@ -25,6 +25,8 @@ pub enum Flavor {
 pub(crate) struct Dialect {
     /// Sets the accelerations that the time estimate counts on.
     pub(crate) accelerations: &'static str,
+    /// Sets the acceleration of beads to {bead_acceleration}.
+    pub(crate) bead_acceleration: &'static str,
     /// Reports progress: {percent} done, {minutes} to go.
     pub(crate) progress: &'static str,
     /// Whether printing and travelling may accelerate differently.
@@ -37,24 +39,28 @@ impl Flavor {
         match self {
             Flavor::Marlin => &Dialect {
                 accelerations: "M204 P{acceleration} R{retract_acceleration} T{travel_acceleration}\n",
+                bead_acceleration: "M204 P{bead_acceleration}\n",
                 progress: "M73 P{percent} R{minutes}\n",
                 travel_acceleration: true,
             },
             // One acceleration for all moves: the smaller one, as Klipper itself reads M204 P T.
             Flavor::Klipper => &Dialect {
                 accelerations: "SET_VELOCITY_LIMIT ACCEL={smaller_acceleration}\n",
+                bead_acceleration: "SET_VELOCITY_LIMIT ACCEL={bead_acceleration}\n",
                 progress: "M73 P{percent} R{minutes}\n",
                 travel_acceleration: false,
             },
             // RepRapFirmware's M204 knows P and T only.
             Flavor::Reprap => &Dialect {
                 accelerations: "M204 P{acceleration} T{travel_acceleration}\n",
+                bead_acceleration: "M204 P{bead_acceleration}\n",
                 progress: "M73 P{percent} R{minutes}\n",
                 travel_acceleration: true,
             },
             // Q and S are the same for the silent mode.
             Flavor::Prusa => &Dialect {
                 accelerations: "M204 P{acceleration} R{retract_acceleration} T{travel_acceleration}\n",
+                bead_acceleration: "M204 P{bead_acceleration}\n",
                 progress: "M73 P{percent} R{minutes}\nM73 Q{percent} S{minutes}\n",
                 travel_acceleration: true,
             },

@@ -146,6 +146,8 @@ struct Route<'a> {
     fan: u8,
     /// Filament that is pulled back, in steps.
     retracted: i32,
+    /// Where the nozzle may be wiped before it leaves; empty for nowhere.
+    wipe: Vec<Place>,
     time_s: f64,
     filament_mm: f64,
     travel_mm: f64,
@@ -162,6 +164,7 @@ impl<'a> Route<'a> {
             z: 0,
             fan: 0,
             retracted: 0,
+            wipe: Vec::new(),
             time_s: 0.0,
             filament_mm: 0.0,
             travel_mm: 0.0,
@@ -221,21 +224,16 @@ impl<'a> Route<'a> {
         let z = micrometres(layer.print_z);
         let distance = self.at.distance(to);
         let mut moves = Vec::new();
-        Hop {
-            to,
-            via: &[],
-            from_z: self.z,
-            to_z: z,
-            distance,
-            oozes_outside: true,
-            retracted: self.retracted,
-        }
-        .moves(self.options, &mut moves);
+        let wipe = &std::mem::take(&mut self.wipe);
+        let (from_z, retracted) = (self.z, self.retracted);
+        Hop { to, via: &[], from_z, to_z: z, distance, oozes_outside: true, retracted, wipe }
+            .moves(self.options, &mut moves);
         if layer.fan[0] != self.fan {
             moves.push(Move::Fan(layer.fan[0]));
         }
         let time_s = self.book(&moves);
         self.at = Place::of(stops.end);
+        self.wipe = layer.wipe.iter().map(|&p| Place::of(p)).collect();
         self.fan = layer.fan[1];
         self.time_s += layer.time_s;
         self.filament_mm += layer.filament_mm;
@@ -289,9 +287,13 @@ impl<'a> Route<'a> {
         for &step in moves {
             match step {
                 Move::Lift { z, .. } => self.z = z,
-                Move::Filament { filament, .. } => self.retracted -= filament,
+                Move::Filament { filament, .. } | Move::Wipe { filament, .. } => self.retracted -= filament,
                 Move::Fan(fan) => self.fan = fan,
-                Move::Role(_) | Move::Width(_) | Move::Extrude { .. } | Move::Travel { .. } => {}
+                Move::Role(_)
+                | Move::Width(_)
+                | Move::Acceleration(_)
+                | Move::Extrude { .. }
+                | Move::Travel { .. } => {}
             }
         }
         self.at = account.end;
@@ -359,7 +361,7 @@ impl<'a> FileWriter<'a> {
     }
 
     fn way(&mut self, way: &Way) {
-        let mut writer = Writer::after(std::mem::take(&mut self.glue));
+        let mut writer = Writer::after(std::mem::take(&mut self.glue), self.options.printer.flavor);
         if let Some(height) = way.bead_height {
             writer.length_comment(b";HEIGHT:", height);
         }
@@ -385,7 +387,7 @@ impl<'a> FileWriter<'a> {
 
     /// The way to a layer and the layer, cut where progress is reported.
     fn layer(&mut self, k: usize, layer: &LayerSummary, way: &Way) {
-        let mut writer = Writer::after(std::mem::take(&mut self.glue));
+        let mut writer = Writer::after(std::mem::take(&mut self.glue), self.options.printer.flavor);
         writer.comment(b";LAYER_CHANGE", b"");
         writer.length_comment(b";Z:", micrometres(layer.print_z));
         writer.length_comment(b";HEIGHT:", micrometres(layer.height));

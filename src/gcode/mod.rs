@@ -15,6 +15,7 @@
 //! of the machine and not of numbers lost in rounding. The formulas and their sources are in
 //! `docs/gcode.md`.
 
+mod cooling;
 mod estimate;
 mod extrude;
 mod flavor;
@@ -27,11 +28,14 @@ mod writer;
 
 use std::collections::BTreeMap;
 
+pub use cooling::CoolingOptions;
 pub use estimate::{Limits, move_times};
 pub use extrude::filament_area;
 pub use flavor::Flavor;
 pub use join::{FileNotes, Joined, Piece, Totals, assemble, format_duration, join};
-pub use options::{FilamentOptions, GcodeOptions, PrinterOptions, RetractionOptions, SpeedOptions};
+pub use options::{
+    AccelerationOptions, FilamentOptions, GcodeOptions, PrinterOptions, RetractionOptions, SpeedOptions,
+};
 pub use plan::plan_layer;
 pub use start::{GcodeError, check_templates};
 pub use writer::type_name;
@@ -89,6 +93,9 @@ pub struct LayerSummary {
     pub retractions: u32,
     /// Beads by role; roles without beads are left out.
     pub by_role: BTreeMap<Role, RoleUse>,
+    /// Places over which the nozzle may be wiped after the last bead, the end of that bead first, mm;
+    /// empty without `retraction.wipe`.
+    pub wipe: Vec<DVec2>,
     /// Where progress may be reported: byte offsets of line starts, and the seconds since the
     /// layer's start that have passed there; about every [`MARK_EVERY_S`].
     pub marks: Vec<(u32, f64)>,
@@ -170,6 +177,8 @@ pub enum Move {
     Width(u32),
     /// Fan speed, 0 to 255; takes no time.
     Fan(u8),
+    /// Beads from here on accelerate by so many mm/s2; takes no time.
+    Acceleration(u32),
     /// A straight bead.
     Extrude {
         /// Where it ends.
@@ -183,6 +192,15 @@ pub enum Move {
     Travel {
         /// Where it ends.
         to: Place,
+        /// Feed rate.
+        feed: u32,
+    },
+    /// A straight move over a bead while filament is pulled back.
+    Wipe {
+        /// Where it ends.
+        to: Place,
+        /// Filament pulled, negative.
+        filament: i32,
         /// Feed rate.
         feed: u32,
     },
@@ -208,9 +226,8 @@ pub(crate) const FILAMENT_STEPS: f64 = 1e5;
 /// Text and figures of one layer. Depends on nothing but its arguments.
 pub fn layer_gcode(layer: &LayerInput<'_>, options: &GcodeOptions) -> LayerGcode {
     let plan = plan_layer(layer, options);
-    let times = move_times(plan.start, plan.z, &plan.moves, &Limits::of(&options.printer));
-    let mut summary = plan.summary(&times, filament_area(options.filament.diameter));
-    let text = writer::write_layer(&plan, &times, &mut summary.marks);
+    let mut summary = plan.summary(filament_area(options.filament.diameter));
+    let text = writer::write_layer(&plan, options.printer.flavor, &mut summary.marks);
     summary.text_len = u32::try_from(text.len()).expect("a layer's text is far below 4 GiB");
     LayerGcode { text, summary }
 }

@@ -1,5 +1,6 @@
 //! What printer, filament, speeds and retraction a file is written for.
 
+use super::cooling::CoolingOptions;
 use super::flavor::Flavor;
 use crate::region::Role;
 
@@ -84,10 +85,16 @@ crate::options! {
         max_volumetric_speed: f64 = 12.0, "Highest volumetric speed", "mm3/s", 0.1..=1000.0;
         /// Fan while printing, as a share of full speed.
         fan_speed: f64 = 1.0, "Fan", "", 0.0..=1.0;
-        /// Fan on bridges, as a share of full speed.
+        /// Fan on layers that take `cooling.min_layer_time` or less, as a share of full speed; less than
+        /// `fan_speed` counts as that.
+        max_fan_speed: f64 = 0.0, "Fan on short layers", "", 0.0..=1.0;
+        /// Fan on bridges and overhanging walls, as a share of full speed.
         bridge_fan_speed: f64 = 1.0, "Fan on bridges", "", 0.0..=1.0;
         /// Number of layers at the bottom that are printed without fan.
         fan_first_layers: u32 = 1, "Layers without fan", "", 0.0..=1000.0;
+        /// Number of the layer, counted from 1, at which the fan has risen to its speed; layers before
+        /// it and after those without fan get an even share. 0 turns the fan on at once.
+        fan_full_layer: u32 = 0, "Layer of full fan", "", 0.0..=1000.0;
     }
 }
 
@@ -149,6 +156,66 @@ crate::options! {
         z_hop: f64 = 0.0, "Z hop", "mm", 0.0..=10.0;
         /// Shorter travels are made without retraction.
         min_travel: f64 = 1.5, "Shortest travel with retraction", "mm", 0.0..=1000.0;
+        /// Moves the nozzle over the bead just printed while the filament is pulled back, so that what
+        /// oozes is left there.
+        wipe: bool = false, "Wipe";
+        /// How far it moves.
+        wipe_distance: f64 = 2.0, "Wipe distance", "mm", 0.0..=100.0;
+    }
+}
+
+crate::options! {
+    /// How fast beads of a kind gather speed; 0 takes `printer.acceleration`, as every kind without a
+    /// setting of its own does.
+    pub struct AccelerationOptions {
+        /// All beads of the first layer.
+        first_layer: f64 = 0.0, "First layer", "mm/s2", 0.0..=100000.0;
+        /// The loop that is seen from outside.
+        outer_wall: f64 = 0.0, "Outer wall", "mm/s2", 0.0..=100000.0;
+        /// Loops inside the outer wall.
+        inner_wall: f64 = 0.0, "Inner walls", "mm/s2", 0.0..=100000.0;
+        /// Bridges and overhanging walls.
+        bridge: f64 = 0.0, "Bridges", "mm/s2", 0.0..=100000.0;
+        /// Top skin and ironing.
+        top_skin: f64 = 0.0, "Top skin", "mm/s2", 0.0..=100000.0;
+        /// Solid infill and bottom skin.
+        solid_infill: f64 = 0.0, "Solid infill", "mm/s2", 0.0..=100000.0;
+        /// Sparse infill.
+        infill: f64 = 0.0, "Infill", "mm/s2", 0.0..=100000.0;
+        /// Supports.
+        support: f64 = 0.0, "Support", "mm/s2", 0.0..=100000.0;
+    }
+}
+
+impl AccelerationOptions {
+    /// Acceleration asked for beads of a role, mm/s2; 0 takes the printer's.
+    pub fn of(&self, role: Role) -> f64 {
+        match role {
+            Role::OuterWall => self.outer_wall,
+            Role::InnerWall => self.inner_wall,
+            Role::Bridge | Role::OverhangWall => self.bridge,
+            Role::TopSkin | Role::Ironing => self.top_skin,
+            Role::SolidInfill | Role::BottomSkin => self.solid_infill,
+            Role::Infill => self.infill,
+            Role::Support | Role::SupportInterface => self.support,
+            Role::GapFill
+            | Role::Skirt
+            | Role::Brim
+            | Role::Teeth
+            | Role::Raft
+            | Role::Prime
+            | Role::WipeTower => 0.0,
+        }
+    }
+}
+
+impl PrinterOptions {
+    /// What is asked of the firmware for beads of this acceleration, whole mm/s2. One that knows a
+    /// single value for all moves gets no more than travels may have, as Klipper itself reads M204 P T.
+    pub(crate) fn bead_acceleration(&self, acceleration: f64) -> u32 {
+        let own = self.flavor.dialect().travel_acceleration;
+        let most = if own { f64::INFINITY } else { self.travel_acceleration };
+        acceleration.min(most).round() as u32
     }
 }
 
@@ -189,6 +256,10 @@ pub struct GcodeOptions {
     pub speed: SpeedOptions,
     /// Settings `retraction.*`.
     pub retraction: RetractionOptions,
+    /// Settings `acceleration.*`.
+    pub acceleration: AccelerationOptions,
+    /// Settings `cooling.*`.
+    pub cooling: CoolingOptions,
     /// Setting `first_layer.speed`, mm/s: no bead of the first layer is printed faster. Default 25.
     pub first_layer_speed: f64,
 }
@@ -200,6 +271,8 @@ impl Default for GcodeOptions {
             filament: FilamentOptions::default(),
             speed: SpeedOptions::default(),
             retraction: RetractionOptions::default(),
+            acceleration: AccelerationOptions::default(),
+            cooling: CoolingOptions::default(),
             first_layer_speed: 25.0,
         }
     }

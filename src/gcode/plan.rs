@@ -1,7 +1,11 @@
 //! Paths of one layer, in printing order, to the moves of the machine.
 
+use super::cooling::{Fan, Stretch, slow_down};
 use super::extrude::Feeder;
-use super::{FILAMENT_STEPS, GcodeOptions, LayerInput, LayerSummary, Move, Place, RoleUse, Stops};
+use super::{
+    FILAMENT_STEPS, GcodeOptions, LayerInput, LayerSummary, Limits, Move, Place, RetractionOptions, RoleUse,
+    Stops, move_times,
+};
 use crate::region::{Bead, Path, Role, Width};
 use crate::toolpath::Way;
 use std::collections::BTreeMap;
@@ -22,6 +26,9 @@ const MOST_PIECES: f64 = 1000.0;
 /// than this share: well within the 1 % promised, and few enough lines.
 const WIDTH_TOLERANCE: f64 = 0.005;
 
+/// Speed over a wipe as a share of the travel speed, as PrusaSlicer has it.
+const WIPE_SPEED: f64 = 0.8;
+
 /// The moves of one layer, from stop to stop.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayerPlan {
@@ -39,6 +46,11 @@ pub struct LayerPlan {
     pub fan: [u8; 2],
     /// What the machine does; empty if there are no paths.
     pub moves: Vec<Move>,
+    /// Seconds of each move.
+    pub times: Vec<f64>,
+    /// Where the nozzle could go while it pulls the filament back after the last bead: over what it
+    /// has just printed.
+    pub wipe: Vec<Place>,
 }
 
 /// Plans one layer. Paths without length are left out.
@@ -49,14 +61,28 @@ pub fn plan_layer(layer: &LayerInput<'_>, options: &GcodeOptions) -> LayerPlan {
     for (path, way) in layer.paths.iter().zip(told) {
         planner.path(path, way);
     }
+    planner.set_acceleration(options.printer.acceleration);
+    let wipe = planner.wipe_way();
+    let Planner { start, z, mut moves, .. } = planner;
+    let start = start.unwrap_or_default();
+    let limits = Limits::of(&options.printer);
+    let mut times = move_times(start, z, &moves, &limits);
+    let planned_s: f64 = times.iter().sum();
+    if slow_down(&mut moves, planned_s, Stretch { start, z, limits: &limits }, &options.cooling) {
+        times = move_times(start, z, &moves, &limits);
+    }
+    let fan = Fan::of(layer.index, planned_s, &options.filament, &options.cooling);
+    let fan = fan.blow(&mut moves, &mut times);
     LayerPlan {
         index: layer.index,
         print_z: layer.print_z,
         height: layer.height,
-        start: planner.start.unwrap_or_default(),
-        z: planner.z,
-        fan: [planner.first_fan.unwrap_or(planner.layer_fan), planner.fan],
-        moves: planner.moves,
+        start,
+        z,
+        fan,
+        moves,
+        times,
+        wipe,
     }
 }
 
@@ -86,7 +112,6 @@ struct Planner<'a> {
     height: f64,
     z: i32,
     feeder: Feeder,
-    layer_fan: u8,
     /// State of the machine while the moves are laid down.
     start: Option<Place>,
     at: Place,
@@ -95,34 +120,38 @@ struct Planner<'a> {
     crosses_outline: bool,
     role: Option<Role>,
     stated_width: Option<u32>,
-    first_fan: Option<u8>,
-    fan: u8,
+    acceleration: u32,
+    /// The path printed last.
+    printed: Printed,
     moves: Vec<Move>,
+}
+
+/// A path that has just been printed.
+#[derive(Default)]
+struct Printed {
+    places: Vec<Place>,
+    closed: bool,
 }
 
 impl<'a> Planner<'a> {
     fn new(layer: &LayerInput<'_>, options: &'a GcodeOptions) -> Self {
         let points: usize = layer.paths.iter().map(|p| p.points.len() + 1).sum();
-        let mut planner = Planner {
+        Planner {
             options,
             index: layer.index,
             height: layer.height,
             z: micrometres(layer.print_z),
             feeder: Feeder::new(options.filament.diameter),
-            layer_fan: 0,
             start: None,
             at: Place::default(),
             via: Vec::new(),
             crosses_outline: false,
             role: None,
             stated_width: None,
-            first_fan: None,
-            fan: 0,
+            acceleration: options.printer.bead_acceleration(options.printer.acceleration),
+            printed: Printed::default(),
             moves: Vec::with_capacity(points + 5 * layer.paths.len()),
-        };
-        planner.layer_fan = planner.duty(options.filament.fan_speed);
-        planner.fan = planner.layer_fan;
-        planner
+        }
     }
 
     fn path(&mut self, path: &Path, way: &Way) {
@@ -140,6 +169,7 @@ impl<'a> Planner<'a> {
             Width::Uniform(width) => self.uniform(path, &places, *width),
             Width::Varying(widths) => self.varying(path, &places, widths),
         }
+        self.printed = Printed { places, closed: path.closed };
     }
 
     /// Beads of one width along the whole path.
@@ -206,20 +236,17 @@ impl<'a> Planner<'a> {
             self.stated_width = None;
             self.moves.push(Move::Role(role));
         }
-        let fan = match role {
-            Role::Bridge => self.duty(self.options.filament.bridge_fan_speed),
-            _ => self.layer_fan,
-        };
-        if self.first_fan.is_none() {
-            self.first_fan = Some(fan);
-        } else if fan != self.fan {
-            self.moves.push(Move::Fan(fan));
-        }
-        self.fan = fan;
+        let first = if self.index == 0 { self.options.acceleration.first_layer } else { 0.0 };
+        let own = [first, self.options.acceleration.of(role), self.options.printer.acceleration];
+        self.set_acceleration(own.into_iter().find(|&a| a > 0.0).unwrap_or_default());
     }
 
-    fn duty(&self, share: f64) -> u8 {
-        if self.index < self.options.filament.fan_first_layers { 0 } else { (share * 255.0).round() as u8 }
+    fn set_acceleration(&mut self, acceleration: f64) {
+        let whole = self.options.printer.bead_acceleration(acceleration);
+        if self.acceleration != whole && self.start.is_some() {
+            self.moves.push(Move::Acceleration(whole));
+            self.acceleration = whole;
+        }
     }
 
     fn state_width(&mut self, width: u32) {
@@ -244,6 +271,7 @@ impl<'a> Planner<'a> {
         } else if self.at != to {
             let stops = || std::iter::once(self.at).chain(self.via.iter().copied());
             let distance = stops().zip(stops().skip(1).chain([to])).map(|(a, b)| a.distance(b)).sum();
+            let wipe = &self.wipe_way();
             let travel = Hop {
                 to,
                 via: &self.via,
@@ -252,6 +280,7 @@ impl<'a> Planner<'a> {
                 distance,
                 oozes_outside: self.crosses_outline,
                 retracted: 0,
+                wipe,
             };
             travel.moves(self.options, &mut self.moves);
         }
@@ -259,6 +288,35 @@ impl<'a> Planner<'a> {
         self.crosses_outline = false;
         self.at = to;
     }
+
+    /// The way over the path printed last along which the nozzle may be wiped: on along a loop, back
+    /// along a line.
+    fn wipe_way(&self) -> Vec<Place> {
+        let RetractionOptions { wipe, wipe_distance, .. } = self.options.retraction;
+        let Printed { places, closed } = &self.printed;
+        let Some((&first, rest)) = places.split_first().filter(|_| wipe) else { return Vec::new() };
+        match closed {
+            true => cut_way(first, rest.iter().chain([&first]), wipe_distance),
+            false => cut_way(places[places.len() - 1], places.iter().rev().skip(1), wipe_distance),
+        }
+    }
+}
+
+/// The first `length` mm of a way that leads from `at` over `places`, `at` included.
+fn cut_way<'a>(mut at: Place, places: impl Iterator<Item = &'a Place>, length: f64) -> Vec<Place> {
+    let mut left = length;
+    let mut way = vec![at];
+    for &to in places.filter(|_| length > 0.0) {
+        let step = at.distance(to);
+        if step >= left {
+            way.push(Place::of(at.mm().lerp(to.mm(), left / step)));
+            break;
+        }
+        way.push(to);
+        left -= step;
+        at = to;
+    }
+    way
 }
 
 /// A move without extrusion, with what goes before and after it.
@@ -275,6 +333,9 @@ pub(super) struct Hop<'a> {
     pub(super) oozes_outside: bool,
     /// Filament that is pulled back already.
     pub(super) retracted: i32,
+    /// Places to go over while the filament is pulled back, from where the nozzle is; empty pulls it
+    /// at rest.
+    pub(super) wipe: &'a [Place],
 }
 
 impl Hop<'_> {
@@ -290,7 +351,7 @@ impl Hop<'_> {
         let z_feed = z_feed(options);
         let filament_feed = feed_rate(retraction.speed);
         if pulled > self.retracted {
-            moves.push(Move::Filament { filament: self.retracted - pulled, feed: filament_feed });
+            self.retract(pulled - self.retracted, options, moves);
         }
         if travel_z != self.from_z {
             moves.push(Move::Lift { z: travel_z, feed: z_feed });
@@ -307,12 +368,32 @@ impl Hop<'_> {
             moves.push(Move::Filament { filament: pulled, feed: filament_feed });
         }
     }
+
+    /// Pulls `filament` steps back: as many of them on the way over the wipe as the filament's speed
+    /// allows, those before at rest.
+    fn retract(&self, filament: i32, options: &GcodeOptions, moves: &mut Vec<Move>) {
+        let speed = options.retraction.speed;
+        let wipe_speed = options.speed.travel * WIPE_SPEED;
+        let lengths: Vec<f64> = self.wipe.windows(2).map(|w| w[0].distance(w[1])).collect();
+        let length: f64 = lengths.iter().sum();
+        let on_the_way = filament_steps(length / wipe_speed * speed).min(filament);
+        if filament > on_the_way {
+            moves.push(Move::Filament { filament: on_the_way - filament, feed: feed_rate(speed) });
+        }
+        let (mut gone, mut pulled) = (0.0, 0);
+        for (&to, step) in self.wipe.iter().skip(1).zip(lengths) {
+            gone += step;
+            let until_here = (f64::from(on_the_way) * gone / length).round() as i32;
+            moves.push(Move::Wipe { to, filament: pulled - until_here, feed: feed_rate(wipe_speed) });
+            pulled = until_here;
+        }
+    }
 }
 
 impl LayerPlan {
-    /// Adds up the moves. `times` holds the seconds of each move, `filament_area` is in mm2.
-    pub(super) fn summary(&self, times: &[f64], filament_area: f64) -> LayerSummary {
-        let account = Account::of(self.start, &self.moves, times, filament_area);
+    /// Adds up the moves. `filament_area` is in mm2.
+    pub(super) fn summary(&self, filament_area: f64) -> LayerSummary {
+        let account = Account::of(self.start, &self.moves, &self.times, filament_area);
         LayerSummary {
             index: self.index,
             print_z: self.print_z,
@@ -324,6 +405,7 @@ impl LayerPlan {
             travel_mm: account.travel_mm,
             retractions: account.retractions,
             by_role: account.by_role,
+            wipe: self.wipe.iter().map(|p| p.mm()).collect(),
             ..LayerSummary::default()
         }
     }
@@ -346,6 +428,7 @@ impl Account {
         let mut sum = Account { end: start, ..Account::default() };
         let mut role = Role::Prime;
         let mut beads = BeadSum::default();
+        let mut pulled_back = false;
         for (&step, &time) in moves.iter().zip(times) {
             sum.time_s += time;
             match step {
@@ -363,8 +446,16 @@ impl Account {
                     sum.travel_mm += sum.end.distance(to);
                     sum.end = to;
                 }
-                Move::Filament { filament, .. } => sum.retractions += u32::from(filament < 0),
-                Move::Width(_) | Move::Fan(_) | Move::Lift { .. } => {}
+                Move::Wipe { to, .. } => {
+                    sum.travel_mm += sum.end.distance(to);
+                    sum.end = to;
+                    sum.retractions += u32::from(!std::mem::replace(&mut pulled_back, true));
+                }
+                Move::Filament { filament, .. } => {
+                    let before = std::mem::replace(&mut pulled_back, filament < 0);
+                    sum.retractions += u32::from(filament < 0 && !before);
+                }
+                Move::Width(_) | Move::Fan(_) | Move::Acceleration(_) | Move::Lift { .. } => {}
             }
         }
         sum.close(role, beads, filament_area);

@@ -1,6 +1,6 @@
 //! G-code text to moves: for the preview, for measuring what a file really says, and for the tests.
 //!
-//! Understands G0 to G3 (arcs become chords), G20, G21, G28, G90, G91, G92, M82 and M83, and the
+//! Understands G0 to G3 (arcs become chords), G20, G21, G28, G90, G91, G92, M82, M83 and M204, and the
 //! comments by which PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio and Cura name layers, types,
 //! widths and heights. Everything else is passed over. A line that cannot be understood is left out
 //! and reported; no input makes it panic or return a number that is not finite.
@@ -56,7 +56,7 @@ pub struct ReadLayer {
     pub strands: Vec<Strand>,
     /// Moves in the plane without extrusion: from, to.
     pub travels: Vec<[DVec2; 2]>,
-    /// Number of moves that pull filament back at rest.
+    /// How often filament is pulled back, at rest or on the way.
     pub retractions: u32,
 }
 
@@ -135,6 +135,8 @@ struct Builder {
     layers: Vec<ReadLayer>,
     /// Whether the last move laid a bead, so that the next one may go on with its strand.
     laying: bool,
+    /// Whether the filament has been pulled back since it was last pushed.
+    pulled_back: bool,
     bead_z: f64,
 }
 
@@ -151,14 +153,17 @@ impl Builder {
     fn add(&mut self, step: &ReadMove) {
         let [from, to] = [step.from, step.to].map(|p| dvec2(p[0], p[1]));
         if step.lays_bead() {
+            self.pulled_back = false;
             self.bead(step, from, to);
             return;
         }
         if step.moves_in_plane() {
             self.layer().travels.push([from, to]);
-        } else if step.filament_mm < 0.0 {
+        }
+        if step.filament_mm < 0.0 && !std::mem::replace(&mut self.pulled_back, true) {
             self.layer().retractions += 1;
         }
+        self.pulled_back &= step.filament_mm <= 0.0;
         self.laying &= step.filament_mm == 0.0 && !step.moves_in_plane();
     }
 
@@ -230,6 +235,8 @@ pub struct ReadMove {
     pub filament_mm: f64,
     /// Speed asked for, mm/s; 0 if the file has not said yet.
     pub speed: f64,
+    /// Acceleration of beads set last (M204, or Klipper's SET_VELOCITY_LIMIT), mm/s2.
+    pub acceleration: Option<f64>,
     /// Type stated last.
     pub role: Option<Role>,
     /// Width stated last, mm.
@@ -281,6 +288,7 @@ struct Machine {
     /// The text's E.
     e: f64,
     feed: f64,
+    acceleration: Option<f64>,
     relative: bool,
     relative_e: bool,
     inches: bool,
@@ -353,7 +361,11 @@ impl<'a> Reader<'a> {
                 self.machine.take_m(rest);
                 Some(())
             }
-            // Tool changes and macros such as SET_VELOCITY_LIMIT.
+            b'S' | b's' => {
+                self.machine.take_macro(code);
+                Some(())
+            }
+            // Tool changes and macros.
             b'A'..=b'Z' | b'_' | b'(' | b'%' | b'/' | b'@' => Some(()),
             _ => None,
         }
@@ -394,6 +406,7 @@ impl<'a> Reader<'a> {
             to,
             filament_mm,
             speed: self.machine.feed / 60.0,
+            acceleration: self.machine.acceleration,
             role: self.labels.role,
             width: self.labels.width,
             height: self.labels.height,
@@ -493,7 +506,21 @@ impl Machine {
         match command_number(rest) {
             Some((82, _)) => self.relative_e = false,
             Some((83, _)) => self.relative_e = true,
+            Some((204, rest)) => {
+                // P is for beads; S, in older firmwares, for all moves.
+                let value = [b'P', b'S'].iter().find_map(|&letter| word_of(rest, letter));
+                self.acceleration = value.filter(|&a| a > 0.0).or(self.acceleration);
+            }
             _ => {}
+        }
+    }
+
+    /// Klipper's SET_VELOCITY_LIMIT ACCEL=value.
+    fn take_macro(&mut self, code: &[u8]) {
+        let mut words = code.split(u8::is_ascii_whitespace);
+        if words.next().is_some_and(|name| name.eq_ignore_ascii_case(b"SET_VELOCITY_LIMIT")) {
+            let value = words.find_map(|w| w.to_ascii_uppercase().strip_prefix(b"ACCEL=").and_then(number));
+            self.acceleration = value.map(|(a, _)| a).filter(|&a| a > 0.0).or(self.acceleration);
         }
     }
 }
@@ -580,6 +607,16 @@ impl Words {
             rest = &after[used..];
         }
     }
+}
+
+/// The value of the word with this letter, among words with spaces between them.
+fn word_of(rest: &[u8], letter: u8) -> Option<f64> {
+    let mut words = rest.split(u8::is_ascii_whitespace);
+    words
+        .find_map(|w| {
+            w.split_first().filter(|(l, _)| l.eq_ignore_ascii_case(&letter)).and_then(|(_, v)| number(v))
+        })
+        .map(|(value, _)| value)
 }
 
 /// Drops a leading line number, as in `N12 G1 X3`.

@@ -1,6 +1,7 @@
 //! Moves to text. A part can need 50 MB of it, so numbers are printed by integer arithmetic, each
 //! line in a small buffer of its own and then appended at once.
 
+use super::flavor::{Dialect, Flavor};
 use super::plan::LayerPlan;
 use super::{MARK_EVERY_S, Move, Place};
 use crate::region::Role;
@@ -29,11 +30,11 @@ pub const fn type_name(role: Role) -> &'static str {
 }
 
 /// The text of a layer; `marks` gets the places where progress can be reported.
-pub(super) fn write_layer(plan: &LayerPlan, times: &[f64], marks: &mut Vec<(u32, f64)>) -> Vec<u8> {
+pub(super) fn write_layer(plan: &LayerPlan, flavor: Flavor, marks: &mut Vec<(u32, f64)>) -> Vec<u8> {
     // A line of a bead has some 27 bytes.
-    let mut writer = Writer::after(Vec::with_capacity(plan.moves.len() * 28));
+    let mut writer = Writer::after(Vec::with_capacity(plan.moves.len() * 28), flavor);
     let (mut passed, mut marked) = (0.0, 0.0);
-    for (&step, &time) in plan.moves.iter().zip(times) {
+    for (&step, &time) in plan.moves.iter().zip(&plan.times) {
         if passed - marked >= MARK_EVERY_S {
             marks.push((writer.out.len() as u32, passed));
             marked = passed;
@@ -45,17 +46,18 @@ pub(super) fn write_layer(plan: &LayerPlan, times: &[f64], marks: &mut Vec<(u32,
 }
 
 /// Writes moves, leaving out words that have not changed since it began.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Writer {
     pub(super) out: Vec<u8>,
+    dialect: &'static Dialect,
     at: Option<Place>,
     feed: Option<u32>,
 }
 
 impl Writer {
     /// A writer that goes on behind `out`, without knowing what the machine did there.
-    pub(super) fn after(out: Vec<u8>) -> Writer {
-        Writer { out, at: None, feed: None }
+    pub(super) fn after(out: Vec<u8>, flavor: Flavor) -> Writer {
+        Writer { out, dialect: flavor.dialect(), at: None, feed: None }
     }
 
     /// Appends one move.
@@ -65,7 +67,12 @@ impl Writer {
             Move::Width(width) => self.line(|line| line.text(b";WIDTH:").thousandths(i64::from(width))),
             Move::Fan(0) => self.out.extend_from_slice(b"M107\n"),
             Move::Fan(duty) => self.line(|line| line.text(b"M106 S").integer(u32::from(duty))),
-            Move::Extrude { to, filament, feed } => {
+            Move::Acceleration(acceleration) => {
+                let line = self.dialect.bead_acceleration;
+                let line = line.replace("{bead_acceleration}", &acceleration.to_string());
+                self.out.extend_from_slice(line.as_bytes());
+            }
+            Move::Extrude { to, filament, feed } | Move::Wipe { to, filament, feed } => {
                 let (at, feed) = (self.at.replace(to), self.new_feed(feed));
                 self.line(|line| {
                     line.text(b"G1")
@@ -202,7 +209,7 @@ mod tests {
     use super::*;
 
     fn written(moves: &[Move]) -> String {
-        let mut writer = Writer::default();
+        let mut writer = Writer::after(Vec::new(), Flavor::Marlin);
         moves.iter().for_each(|&m| writer.write(m));
         String::from_utf8(writer.out).expect("ASCII")
     }
