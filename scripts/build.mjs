@@ -33,7 +33,7 @@ export async function build() {
 }
 
 function schemas() {
-  const outputs = ['schema/settings.schema.json', 'schema/report.schema.json'];
+  const outputs = ['settings', 'report', 'printer-event', 'printer-outline'].map((it) => `schema/${it}.schema.json`);
   return step('schema', { inputs: [...rust, 'examples/schema.rs'], outputs }, async () => {
     mkdirSync(schema, { recursive: true });
     const fast = quick ? ['--target-dir', at('target', 'unoptimised'), '--config', 'profile.dev.opt-level=0'] : [];
@@ -43,11 +43,12 @@ function schemas() {
 }
 
 function types() {
-  const outputs = ['www/src/generated/settings.ts', 'www/src/generated/report.ts'];
+  const names = ['settings', 'report', 'printer-event', 'printer-outline'];
+  const outputs = names.map((it) => `www/src/generated/${it}.ts`);
   return step('types', { inputs: ['schema', 'scripts/build.mjs', 'package-lock.json'], outputs }, async () => {
     const { compileFromFile } = await import('json-schema-to-typescript');
     mkdirSync(generated, { recursive: true });
-    for (const name of ['settings', 'report']) {
+    for (const name of names) {
       const bannerComment = `// Written by scripts/build.mjs from schema/${name}.schema.json.`;
       const text = await compileFromFile(path.join(schema, `${name}.schema.json`), {
         bannerComment,

@@ -1,10 +1,14 @@
 //! What the link tells its owner.
 
+use serde::Serialize;
+
 use super::reply::Temperatures;
 use super::state::{PauseReason, State, StopReason};
 
 /// Something the page may want to show. Owned values only.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "kind", content = "data", rename_all = "snake_case")]
 pub enum Event {
     /// The state changed.
     State {
@@ -44,7 +48,8 @@ pub enum Event {
 }
 
 /// How far a job got, to go on from there: what is kept when the tab is closed.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Journal {
     /// Index of the last acknowledged line in the job, from 0, comments counted. `None` before the
     /// first. A job goes on at this line plus one.
@@ -56,12 +61,15 @@ pub struct Journal {
 }
 
 /// What `M115` tells.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Firmware {
     /// `FIRMWARE_NAME`.
     pub name: String,
     /// `MACHINE_TYPE`, the printer's own name.
     pub machine: Option<String>,
+    /// It reads macros: Klipper, RepRapFirmware.
+    pub macros: bool,
     /// `Cap:AUTOREPORT_TEMP`: temperatures come by `M155`.
     pub autoreport_temperature: bool,
     /// `Cap:EMERGENCY_PARSER`: `M112`, `M108`, `M410` are read past the queue.

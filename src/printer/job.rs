@@ -131,16 +131,19 @@ impl Job {
         }
     }
 
-    /// `;LAYER_CHANGE` begins a layer; `;LAYER:n` says its number from 0.
     fn count_layer(&mut self, raw: &[u8]) {
-        let line = raw.trim_ascii_start();
-        if line.starts_with(b";LAYER_CHANGE") {
-            self.layer += 1;
-        } else if let Some(number) = line.strip_prefix(b";LAYER:") {
-            let number = std::str::from_utf8(number.trim_ascii()).ok().and_then(|n| n.parse::<u32>().ok());
-            self.layer = number.map_or(self.layer, |n| n.saturating_add(1));
-        }
+        self.layer = layer_after(self.layer, raw);
     }
+}
+
+/// Layers begun after this line: `;LAYER_CHANGE` begins one; `;LAYER:n` says its number from 0.
+pub(super) fn layer_after(layer: u32, raw: &[u8]) -> u32 {
+    let line = raw.trim_ascii_start();
+    if line.starts_with(b";LAYER_CHANGE") {
+        return layer.saturating_add(1);
+    }
+    let number = line.strip_prefix(b";LAYER:").and_then(|n| std::str::from_utf8(n.trim_ascii()).ok());
+    number.and_then(|n| n.parse::<u32>().ok()).map_or(layer, |n| n.saturating_add(1))
 }
 
 /// The text of `M0`/`M1` without the numbers it may begin with.

@@ -6,8 +6,12 @@
 
 use std::fmt;
 
+use serde::Serialize;
+
 /// Why a line cannot be sent.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum LineFault {
     /// Letters or control characters that firmwares do not read, outside a message text.
     NotAscii,

@@ -139,6 +139,8 @@ impl Printer {
     fn on_firmware(&mut self, line: &str) {
         self.firmware.name = reply::firmware_field(line, "FIRMWARE_NAME").unwrap_or_default();
         self.firmware.machine = reply::firmware_field(line, "MACHINE_TYPE");
+        self.firmware.macros =
+            ["Klipper", "RepRapFirmware"].iter().any(|name| self.firmware.name.contains(name));
         if self.state == State::Connecting {
             // The answer to M115 shows that it was taken, and so that the count before it was.
             self.greeting.number.into_iter().for_each(|number| self.queue.prove(number));

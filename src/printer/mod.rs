@@ -10,10 +10,12 @@ mod job;
 mod line;
 mod link;
 mod options;
+mod outline;
 mod position;
 mod queue;
 mod reply;
 mod state;
+mod text;
 mod timers;
 
 use std::collections::VecDeque;
@@ -23,9 +25,11 @@ pub use event::{Event, Firmware, Journal, Statistics};
 pub use job::{JobLines, JobStart};
 pub use line::LineFault;
 pub use options::PrinterOptions;
+pub use outline::{Heat, LayerStart, MacroLine, Outline, TimeMark};
 pub use position::Position;
 pub use reply::{Reading, Temperatures};
 pub use state::{CommandError, Input, PauseReason, State, StopReason, TABLE};
+pub use text::lines_of;
 
 use job::Job;
 use line::{Framer, code, room_for_command, sendable, strip, waits_for_heat};
@@ -364,6 +368,11 @@ impl Printer {
     }
 
     // ---- what is known ----
+
+    /// Whether every line sent and received is told ([`PrinterOptions::log_everything`]).
+    pub fn log_everything(&mut self, on: bool) {
+        self.options.log_everything = on;
+    }
 
     /// Where the link stands.
     pub fn state(&self) -> State {

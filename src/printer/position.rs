@@ -132,7 +132,7 @@ impl Position {
 }
 
 /// Letters and their numbers behind the command word. A letter without a number is left out.
-fn words(command: &str) -> impl Iterator<Item = (u8, f64)> + '_ {
+pub(super) fn words(command: &str) -> impl Iterator<Item = (u8, f64)> + '_ {
     let bytes = command.as_bytes();
     let mut at = 1;
     std::iter::from_fn(move || {
@@ -156,7 +156,7 @@ fn words(command: &str) -> impl Iterator<Item = (u8, f64)> + '_ {
 }
 
 /// Up to five decimals, none that say nothing.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     let text = format!("{value:.5}");
     let short = text.trim_end_matches('0').trim_end_matches('.');
     if short == "-0" { "0".to_owned() } else { short.to_owned() }

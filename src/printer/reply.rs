@@ -3,8 +3,11 @@
 //! Numbers that decide something must stand alone and whole, so that a garbled line is rather nothing
 //! than another number.
 
+use serde::Serialize;
+
 /// Heater readings of one report, degrees Celsius.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Temperatures {
     /// Nozzles in order of their number; a printer with one has one.
     pub tools: Vec<Reading>,
@@ -15,7 +18,8 @@ pub struct Temperatures {
 }
 
 /// One heater, degrees Celsius.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Reading {
     /// Measured.
     pub now: f64,

@@ -4,10 +4,14 @@
 
 use std::fmt;
 
+use serde::Serialize;
+
 use super::line::LineFault;
 
 /// Where the link and the job stand.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum State {
     /// No link: never connected, unplugged, or given up.
     Offline,
@@ -247,7 +251,9 @@ impl fmt::Display for CommandError {
 impl std::error::Error for CommandError {}
 
 /// Why a job or the link ended before its time.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum StopReason {
     /// By the user.
     Cancelled,
@@ -340,7 +346,9 @@ impl fmt::Display for StopReason {
 }
 
 /// Why a job waits.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "kind", content = "text", rename_all = "snake_case")]
 pub enum PauseReason {
     /// The user asked.
     User,

@@ -8,6 +8,7 @@ use wasm_bindgen::prelude::*;
 use crate::mesh::StlError;
 use crate::orientation::OrientationError;
 use crate::pipeline::JobError;
+use crate::printer::CommandError;
 use crate::settings::{Settings, SettingsError};
 
 /// A JavaScript error on its way out.
@@ -61,6 +62,11 @@ pub(super) fn job_error(cause: JobError) -> Thrown {
         JobError::LayerMissing { .. } => "InternalError",
     };
     thrown(name, cause)
+}
+
+/// A command that the printer's state does not allow.
+pub(super) fn command_error(cause: CommandError) -> Thrown {
+    thrown("CommandError", cause)
 }
 
 /// Settings from JSON.

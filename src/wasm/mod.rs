@@ -7,11 +7,13 @@ mod canvas;
 mod convert;
 mod job;
 mod model;
+mod printer;
 mod scene;
 
 pub use convert::Thrown;
 pub use job::{Chunk, Job, JobResult, slice_share};
 pub use model::{Model, ModelReader, SharedMesh};
+pub use printer::{Outline, Printer};
 pub use scene::Scene;
 
 use wasm_bindgen::prelude::*;
