@@ -1,6 +1,7 @@
 // Creates the page's parts and connects them.
 import { speak } from './i18n/text.ts';
 import { loadPreferences, savePreferences } from './preferences.ts';
+import { PrintSession } from './printer/print-session.ts';
 import { problemOf, Session } from './session.ts';
 import { Pool } from './slicer/pool.ts';
 import { compileEngine, pageLanes, viewLane, workerCount } from './slicer/threads.ts';
@@ -17,8 +18,11 @@ store.listen((state) => {
   app.state = state;
 });
 
+const compiled = compileEngine();
+prepareToPrint(store, compiled);
+
 try {
-  const module = await compileEngine();
+  const module = await compiled;
   const pool = new Pool(pageLanes(module), workerCount(navigator.hardwareConcurrency));
   app.session = new Session(store, pool);
   app.painter = painter(pool, viewLane(module));
@@ -26,6 +30,25 @@ try {
   await app.session.start(location.href);
 } catch (error) {
   store.update({ engine: problemOf(error) });
+}
+
+/** The Print step's session over its part of the state; the layer view follows the print. */
+function prepareToPrint(store: Store, compiled: Promise<WebAssembly.Module>): void {
+  const print = {
+    get state() {
+      return store.state.print;
+    },
+    update: (change: Partial<State['print']>) => {
+      const print = { ...store.state.print, ...change };
+      const { result, step, layer } = store.state;
+      const printed = change.journal && Math.max(0, change.journal.layer - 1);
+      const follows = step === 'print' && printed !== undefined && print.job?.result === result;
+      store.update(follows && printed !== layer ? { print, layer: printed } : { print });
+    },
+  };
+  const printing = new PrintSession(print, compiled);
+  if (app instanceof FootholdApp) app.printing = printing;
+  void printing.start();
 }
 
 /** Gives the page its language and colours, as kept or as the browser asks for, and keeps later choices. */

@@ -3,6 +3,7 @@ import type { Report } from './generated/report.ts';
 import type { Language } from './i18n/text.ts';
 import type { LegendEntry, ModelSource, PictureView } from './messages.ts';
 import type { ThemeChoice } from './preferences.ts';
+import { type PrintState, printInitial } from './printer/print-state.ts';
 import type { Changes } from './settings/changes.ts';
 import type { Gcode } from './slicer/gcode.ts';
 import type { Progress } from './slicer/pool.ts';
@@ -63,6 +64,7 @@ export interface State {
   /** The layer shown, from 0. */
   readonly layer: number;
   readonly legend: readonly LegendEntry[];
+  readonly print: PrintState;
   readonly language: Language;
   readonly theme: ThemeChoice;
   /** Whether the page is dark now, by choice or as the system is. */
@@ -79,6 +81,7 @@ export const initial: State = {
   side: 'iso',
   layer: 0,
   legend: [],
+  print: printInitial,
   language: 'en',
   theme: 'system',
   dark: false,

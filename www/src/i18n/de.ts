@@ -1,6 +1,7 @@
 // The words of the page in German.
 import type { Words } from './en.ts';
 import { formats, unitSign } from './format.ts';
+import { print } from './print.de.ts';
 
 const format = formats('de', ['h', 'min', 's']);
 
@@ -89,6 +90,7 @@ export const de: Words = {
     number: 'Bitte eine Zahl',
     unit: unitSign,
   },
+  printing: print,
   problem: {
     ModelError: {
       title: 'Dieses Modell ist nicht brauchbar',

@@ -1,6 +1,7 @@
 // Every word of the page's own, in English; labels and help of settings come from the engine.
 // The other tables have the type of this one: a word that they lack does not compile.
 import { formats, unitSign } from './format.ts';
+import { print } from './print.en.ts';
 
 const format = formats('en', ['h', 'min', 's']);
 
@@ -90,6 +91,7 @@ export const en = {
     number: 'A number, please',
     unit: unitSign,
   },
+  printing: print,
   problem: {
     ModelError: { title: 'This model can’t be used', advice: 'Export it again as STL, or open another one.' },
     SettingsError: { title: 'A setting is not right', advice: 'Correct it and slice again.' },

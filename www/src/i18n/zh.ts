@@ -1,6 +1,7 @@
 // The words of the page in Chinese.
 import type { Words } from './en.ts';
 import { formats, unitSign } from './format.ts';
+import { print } from './print.zh.ts';
 
 const format = formats('zh', ['小时', '分', '秒']);
 
@@ -88,6 +89,7 @@ export const zh: Words = {
     number: '请输入数字',
     unit: unitSign,
   },
+  printing: print,
   problem: {
     ModelError: { title: '无法使用此模型', advice: '请重新导出为 STL，或打开其他模型。' },
     SettingsError: { title: '某项设置有误', advice: '请更正后重新切片。' },

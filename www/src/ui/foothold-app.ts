@@ -2,27 +2,35 @@
 import { html, nothing, type TemplateResult } from 'lit';
 import { t } from '../i18n/text.ts';
 import type { ThemeChoice } from '../preferences.ts';
+import type { PrintSession } from '../printer/print-session.ts';
 import { isStale, type Step } from '../state.ts';
 import type { Painter } from '../view/painter.ts';
 import './job-bar.ts';
 import './page-menu.ts';
 import './prepare-step.ts';
 import './preview-step.ts';
+import './print-step.ts';
 import { problemBox } from './problem-box.ts';
 import './step-bar.ts';
 import { StepPart } from './step-part.ts';
 import './step-view.ts';
 
 /** The steps there are, in their order. */
-const steps: readonly Step[] = ['prepare', 'preview'];
+const steps: readonly Step[] = ['prepare', 'preview', 'print'];
 
 export class FootholdApp extends StepPart {
-  static override properties = { ...StepPart.properties, painter: { attribute: false } };
+  static override properties = {
+    ...StepPart.properties,
+    painter: { attribute: false },
+    printing: { attribute: false },
+  };
   declare painter: Painter | undefined;
+  declare printing: PrintSession | undefined;
 
   constructor() {
     super();
     this.painter = undefined;
+    this.printing = undefined;
   }
 
   protected override render(): TemplateResult {
@@ -71,6 +79,7 @@ export class FootholdApp extends StepPart {
       case 'preview':
         return html`<preview-step .state=${state} .store=${store} .session=${session}></preview-step>`;
       case 'print':
+        return html`<print-step .state=${state} .store=${store} .session=${session} .printing=${this.printing}></print-step>`;
       case 'learn':
         return nothing;
       default:

@@ -1,0 +1,69 @@
+// The page's end of the print lane: a worker that has the port, or the same module in the page.
+import type { Link } from './link.ts';
+import type { PrintNews, PrintRequest, ToPrintLane } from './messages.ts';
+import type { SerialPortLike } from './port.ts';
+
+export class PrintLane {
+  readonly #module: Promise<WebAssembly.Module>;
+  readonly #news: (news: PrintNews) => void;
+  #worker: Promise<Worker> | undefined;
+  #local: Promise<Link> | undefined;
+  #open: Extract<PrintRequest, { kind: 'open' }> | undefined;
+  #port: SerialPortLike | undefined;
+
+  constructor(module: Promise<WebAssembly.Module>, news: (news: PrintNews) => void) {
+    this.#module = module;
+    this.#news = news;
+  }
+
+  /** Opens this port: in the worker, if it can have it. */
+  open(port: SerialPortLike, speeds: readonly number[]): void {
+    this.#port = port;
+    this.#open = { kind: 'open', info: port.getInfo(), speeds };
+    this.#local = undefined;
+    this.send(this.#open);
+  }
+
+  send(request: PrintRequest): void {
+    if (this.#local !== undefined) {
+      void this.#local.then((link) => link.handle(request));
+      return;
+    }
+    this.#worker ??= this.#start();
+    void this.#worker.then((worker) => worker.postMessage({ request } satisfies ToPrintLane));
+  }
+
+  async #start(): Promise<Worker> {
+    const worker = new Worker(new URL('./print.worker.ts', import.meta.url), { type: 'module' });
+    worker.onmessage = ({ data }: MessageEvent<PrintNews>) => this.#hear(data);
+    worker.onerror = (event) => this.#hear({ kind: 'broken', message: event.message });
+    worker.postMessage({ start: await this.#module } satisfies ToPrintLane);
+    return worker;
+  }
+
+  #hear(news: PrintNews): void {
+    if (news.kind === 'elsewhere' && this.#open !== undefined) {
+      this.#local = this.#here();
+      this.send(this.#open);
+      return;
+    }
+    if (news.kind === 'broken') this.#end();
+    this.#news(news);
+  }
+
+  /** A broken lane is not trusted any more; the next request starts a new one. */
+  #end(): void {
+    void this.#worker?.then((worker) => worker.terminate());
+    this.#worker = undefined;
+    this.#local = undefined;
+  }
+
+  async #here(): Promise<Link> {
+    const [{ linkInPage }, module] = await Promise.all([import('./page-link.ts'), this.#module]);
+    return linkInPage(
+      module,
+      () => this.#port,
+      (news) => this.#hear(news),
+    );
+  }
+}
