@@ -6,6 +6,7 @@ import { build } from './build.mjs';
 import { at, wasmTarget } from './places.mjs';
 import { CommandFailed, run, runPackage } from './run.mjs';
 import { browser, npmPackages, wasmBindgen, wasmTargetInstalled } from './setup.mjs';
+import { simulator } from './simulator.mjs';
 
 const args = process.argv.slice(2);
 const only = args.includes('--only') ? args[args.indexOf('--only') + 1] : undefined;
@@ -36,6 +37,7 @@ const groups = {
   ],
   e2e: [
     ['build', build],
+    ['simulated printer', simulator],
     ['browser', browser],
     ['playwright', () => runPackage('@playwright/test/cli.js', ['test'], { env })],
   ],

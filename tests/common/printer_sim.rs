@@ -94,6 +94,57 @@ impl Default for SimOptions {
     }
 }
 
+/// What a run is meant to end with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fate {
+    Finish,
+    Reset,
+    Hang,
+    Error,
+    Unplug,
+}
+
+pub fn fate(seed: u64) -> Fate {
+    match seed % 10 {
+        6 => Fate::Reset,
+        7 => Fate::Hang,
+        8 => Fate::Error,
+        9 => Fate::Unplug,
+        _ => Fate::Finish,
+    }
+}
+
+/// A printer with the mixed faults of this seed, in a job of so many moves.
+pub fn faulty_printer(seed: u64, moves: usize) -> SimOptions {
+    let mut rng = Rng::new(seed ^ 0x5eed);
+    let at = 1 + rng.below(moves - 1);
+    let fate = fate(seed);
+    SimOptions {
+        seed,
+        advanced_ok: rng.chance(0.3),
+        autoreport: rng.chance(0.5),
+        emergency_parser: rng.chance(0.5),
+        busy: rng.chance(0.7),
+        move_time: Duration::from_millis(1 + rng.next() % 60),
+        latency: Duration::from_micros(100 + rng.next() % 4000),
+        faults: Faults {
+            garble_in: 0.01,
+            garble_out: 0.01,
+            lose_ok: 0.01,
+            double_ok: 0.01,
+            late_resend: 0.1,
+            resend_storm: 0.1,
+            no_ok_after_resend: 0.1,
+            noise_before_banner: rng.chance(0.5),
+            split_reads: rng.chance(0.5),
+            reset_after: (fate == Fate::Reset).then_some(at),
+            hang_after: (fate == Fate::Hang).then_some(at),
+            error_after: (fate == Fate::Error).then_some(at),
+        },
+        ..SimOptions::default()
+    }
+}
+
 /// What occupies the printer.
 #[derive(Debug, Clone)]
 struct Running {

@@ -107,6 +107,7 @@ export const print: Words['printing'] = {
     heading: 'Temperatur',
     none: 'Noch keine Meldung.',
     chart: (minutes) => `Temperaturen der letzten ${minutes} Minuten`,
+    span: (minutes) => `letzte ${minutes} min`,
     nozzle: 'Düse',
     bed: 'Bett',
     chamber: 'Kammer',

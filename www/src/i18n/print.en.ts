@@ -105,6 +105,7 @@ export const print = {
     heading: 'Temperature',
     none: 'No report yet.',
     chart: (minutes: number) => `Temperatures of the last ${minutes} minutes`,
+    span: (minutes: number) => `last ${minutes} min`,
     nozzle: 'Nozzle',
     bed: 'Bed',
     chamber: 'Chamber',

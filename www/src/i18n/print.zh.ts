@@ -102,6 +102,7 @@ export const print: Words['printing'] = {
     heading: '温度',
     none: '还没有报告。',
     chart: (minutes) => `最近 ${minutes} 分钟的温度`,
+    span: (minutes) => `最近 ${minutes} 分钟`,
     nozzle: '喷嘴',
     bed: '热床',
     chamber: '腔室',

@@ -9,8 +9,8 @@ import { PrintPart } from './print-part.ts';
 /** Size of the drawing; it is stretched to the width that there is. */
 const [WIDTH, HEIGHT] = [320, 110];
 
-/** Time that the chart covers, ms. */
-const SPAN = 10 * 60_000;
+/** Time that the chart covers at least and at most, ms. */
+const [SHORTEST, LONGEST] = [2 * 60_000, 10 * 60_000];
 
 type Reading = Temperatures['tools'][number];
 
@@ -109,11 +109,12 @@ function heatersOf({ tools, bed, chamber }: Temperatures): Heater[] {
 /** The picture; its figures stand in the table below. */
 function chart(heaters: readonly Heater[], samples: readonly Sample[]): TemplateResult {
   const end = samples.at(-1)?.at ?? 0;
-  const shown = samples.filter(({ at }) => end - at <= SPAN);
+  const span = Math.min(Math.max(end - (samples[0]?.at ?? end), SHORTEST), LONGEST);
+  const shown = samples.filter(({ at }) => end - at <= span);
   const values = heaters.flatMap((it) => shown.map(({ temperatures }) => it.of(temperatures)));
   const most = Math.max(60, ...values.map((it) => Math.max(it?.now ?? 0, it?.target ?? 0)));
   const top = 50 * Math.ceil((most + 10) / 50);
-  const x = (at: number): string => (WIDTH * (1 - (end - at) / SPAN)).toFixed(1);
+  const x = (at: number): string => (WIDTH * (1 - (end - at) / span)).toFixed(1);
   const y = (value: number): string => (HEIGHT * (1 - value / top)).toFixed(1);
   const line = (read: (it: Temperatures) => number | null | undefined): string =>
     shown
@@ -122,12 +123,13 @@ function chart(heaters: readonly Heater[], samples: readonly Sample[]): Template
         return typeof value === 'number' ? [`${x(at)},${y(value)}`] : [];
       })
       .join(' ');
+  const minutes = Math.round(span / 60_000);
   return html`<svg
     class="heat-chart"
     viewBox="0 0 ${WIDTH} ${HEIGHT}"
     preserveAspectRatio="none"
     role="img"
-    aria-label=${t.printing.temperature.chart(SPAN / 60_000)}
+    aria-label=${t.printing.temperature.chart(minutes)}
   >
     ${[0, top / 2].map((value) => svg`<line class="grid" x1="0" x2=${WIDTH} y1=${y(value)} y2=${y(value)} />`)}
     ${heaters.map(
@@ -135,7 +137,8 @@ function chart(heaters: readonly Heater[], samples: readonly Sample[]): Template
         <polyline class="wanted" style="stroke:${it.color}" points=${line((now) => it.of(now)?.target)} />
         <polyline style="stroke:${it.color}" points=${line((now) => it.of(now)?.now)} />`,
     )}
-  </svg>`;
+  </svg>
+  <p class="hint heat-axis" aria-hidden="true"><span>0–${top} °C</span><span>${t.printing.temperature.span(minutes)}</span></p>`;
 }
 
 function degrees(value: number | null | undefined): string {
