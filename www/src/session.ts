@@ -24,22 +24,27 @@ export class Session {
     try {
       const named = namedModel(address);
       if (named !== undefined) return await this.open(await fetched(named, lastPart(named)));
-      await this.open(await fetched('sample.stl', 'sample.stl'));
-      await this.slice('prepare');
+      // The visitor may be at another step by now, and stays there.
+      await this.#open(await fetched('sample.stl', 'sample.stl'), this.#store.state.step);
+      await this.#slice(() => this.#store.state.step);
     } catch (error) {
       this.#store.update({ model: { kind: 'failed', problem: problemOf(error) } });
     }
   }
 
   /** Opens a model; a job under way is cancelled. */
-  async open(source: ModelSource): Promise<void> {
+  open(source: ModelSource): Promise<void> {
+    return this.#open(source, 'prepare');
+  }
+
+  async #open(source: ModelSource, step: Step): Promise<void> {
     this.#job?.abort();
     this.#job = undefined;
     this.#store.update({
       model: { kind: 'reading', source },
       job: { kind: 'idle' },
       result: undefined,
-      step: 'prepare',
+      step,
     });
     const isCurrent = (): boolean => {
       const { model } = this.#store.state;
@@ -53,8 +58,12 @@ export class Session {
     }
   }
 
-  /** Slices the open model with the settings of the form, and goes on to `next`. */
-  async slice(next: Step = 'preview'): Promise<void> {
+  /** Slices the open model with the settings of the form, and goes on to Preview. */
+  slice(): Promise<void> {
+    return this.#slice(() => 'preview');
+  }
+
+  async #slice(next: () => Step): Promise<void> {
     if (this.#store.state.model.kind !== 'open') return;
     this.#job?.abort();
     const job = new AbortController();
@@ -65,7 +74,7 @@ export class Session {
     update({ job: { kind: 'running', progress: { stage: 'read', done: 0, total: 0 } } });
     try {
       const sliced = await this.#sliced(job.signal, (progress) => update({ job: { kind: 'running', progress } }));
-      update({ ...sliced, step: next });
+      update({ ...sliced, step: next() });
     } catch (error) {
       update({ job: isCancel(error) ? { kind: 'cancelled' } : { kind: 'failed', problem: problemOf(error) } });
     } finally {
@@ -91,10 +100,10 @@ export class Session {
   }
 
   showLayer(layer: number): void {
-    const { result } = this.#store.state;
+    const { result, step } = this.#store.state;
     if (result === undefined) return;
     const last = result.gcode.layers.length - 1;
-    this.#store.update({ step: 'preview', layer: Math.min(Math.max(layer, 0), last) });
+    this.#store.update({ step: step === 'prepare' ? 'preview' : step, layer: Math.min(Math.max(layer, 0), last) });
   }
 
   async #sliced(
