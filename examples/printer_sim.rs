@@ -68,9 +68,9 @@ impl Sim {
         self.inner.accepted.join("\n")
     }
 
-    /// Commands taken without a number, one a line.
-    pub fn loose(&self) -> String {
-        self.inner.loose.join("\n")
+    /// `M112` has stopped it.
+    pub fn halted(&self) -> bool {
+        self.inner.halted
     }
 
     /// Job moves taken.

@@ -240,7 +240,7 @@ mod tests {
 
     #[test]
     fn noise_is_read_to_its_end() {
-        let noise: Vec<u8> = (0..20_000_u32).map(|i| (i * 7919 >> 3) as u8).collect();
+        let noise: Vec<u8> = (0..20_000_u32).map(|i| ((i * 7919) >> 3) as u8).collect();
         let lines = noise.split(|b| *b == b'\n').map(<[u8]>::to_vec);
         let count = lines.clone().count() as u64;
         assert_eq!(Outline::of(lines).lines, count);

@@ -24,7 +24,7 @@ export interface Wish {
 /** What the simulated printer has seen. */
 export interface Seen {
   readonly accepted: string;
-  readonly loose: string;
+  readonly halted: boolean;
   readonly moves: number;
   readonly overruns: number;
   readonly fullest: number;

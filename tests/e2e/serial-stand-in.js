@@ -27,11 +27,13 @@ function scaleTime() {
 /** Timers have a least delay; messages have none. */
 const { port1, port2 } = new MessageChannel();
 let due = 0;
+let timer;
 function at(time, act) {
   const turn = ++due;
   const run = () => turn === due && act();
+  clearTimeout(timer);
   const wait = (time - performance.now()) / factor;
-  if (wait > 1) later(run, wait);
+  if (wait > 1) timer = later(run, wait);
   else {
     port2.onmessage = run;
     port1.postMessage(0);
@@ -68,7 +70,7 @@ class Port {
     this.opens += 1;
     this.isOpen = true;
     current = this;
-    if (this.#made !== JSON.stringify(wish.printer)) this.#make();
+    if (this.#sim === undefined || this.#made !== JSON.stringify(wish.printer)) this.#make();
     if (right && wish.resetOnOpen) this.#sim.power_on();
     this.readable = new ReadableStream({
       start: (controller) => {
@@ -98,7 +100,7 @@ class Port {
 
   state() {
     const sim = this.#sim;
-    const seen = { accepted: sim.accepted(), loose: sim.loose(), moves: sim.moves() };
+    const seen = { accepted: sim.accepted(), halted: sim.halted(), moves: sim.moves() };
     return { ...seen, overruns: sim.overruns(), fullest: sim.fullest(), opens: this.opens, open: this.isOpen, inPage };
   }
 

@@ -111,6 +111,7 @@ export const print: Words['printing'] = {
     nozzle: 'Düse',
     bed: 'Bett',
     chamber: 'Kammer',
+    heater: 'Heizung',
     now: 'Jetzt',
     target: 'Ziel',
     off: 'aus',

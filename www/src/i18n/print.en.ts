@@ -109,6 +109,7 @@ export const print = {
     nozzle: 'Nozzle',
     bed: 'Bed',
     chamber: 'Chamber',
+    heater: 'Heater',
     now: 'Now',
     target: 'Target',
     off: 'off',

@@ -106,6 +106,7 @@ export const print: Words['printing'] = {
     nozzle: '喷嘴',
     bed: '热床',
     chamber: '腔室',
+    heater: '加热器',
     now: '当前',
     target: '目标',
     off: '关',

@@ -49,7 +49,7 @@ export class TemperatureChart extends PrintPart {
       ${chart(heaters, samples)}
       <table class="legend">
         <caption class="unseen">${words.heading}</caption>
-        <thead><tr><th scope="col"></th><th scope="col">${words.now}</th><th scope="col">${words.target}</th></tr></thead>
+        <thead><tr><th scope="col">${words.heater}</th><th scope="col">${words.now}</th><th scope="col">${words.target}</th></tr></thead>
         <tbody>
           ${heaters.map((heater) => {
             const reading = heater.of(temperatures);
