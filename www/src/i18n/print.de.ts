@@ -96,6 +96,9 @@ export const print: Words['printing'] = {
     wait: 'Der Drucker wird gefragt, ob er seinen Zustand behalten hat …',
     kept: 'Der Drucker hat Stellung und Hitze behalten: es kann genau dort weitergehen.',
     lost: 'Der Drucker ist neu gestartet oder abgekühlt und weiß nicht mehr, wo sein Kopf ist. Er kann bei einer Schicht beginnen: er heizt, hebt ab, fährt X und Y neben dem Teil auf Null, füllt die Düse und druckt weiter. Den Kopf vorher nicht auf- oder abwärts bewegen.',
+    parked:
+      'Der Druck war angehalten, als die Verbindung abriss, darum steht der Kopf nicht über dem Teil. Er kann bei einer Schicht beginnen: der Drucker heizt, hebt ab, fährt X und Y neben dem Teil auf Null, füllt die Düse und druckt weiter.',
+    parkedHint: 'Über dem Bett, so wie sie steht: beim Anhalten hebt sie sich um 5 mm.',
     goOn: 'Hier weiterdrucken',
     layer: 'Beginnen bei Schicht',
     height: 'Höhe der Düse jetzt (mm)',

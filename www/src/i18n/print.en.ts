@@ -94,6 +94,9 @@ export const print = {
     wait: 'Asking the printer whether it kept its state…',
     kept: 'The printer kept its position and its heat: the print can go on exactly where it stands.',
     lost: 'The printer has restarted or cooled down, so it no longer knows where its head is. It can begin at a layer: it heats, lifts, homes X and Y beside the part, fills the nozzle and goes on. Do not move the head up or down before.',
+    parked:
+      'The print stood in a pause when the connection broke, so the head is not over the part. It can begin at a layer: the printer heats, lifts, homes X and Y beside the part, fills the nozzle and goes on.',
+    parkedHint: 'Over the bed, as it stands: a pause lifts it 5 mm above where the print left off.',
     goOn: 'Go on from here',
     layer: 'Begin at layer',
     height: 'Height of the nozzle now (mm)',

@@ -7,6 +7,8 @@ export interface Standing {
   readonly text: Blob;
   readonly outline: Outline;
   readonly journal: Journal;
+  /** It stands in a pause, or on the way into or out of one: the head is not where the print left off. */
+  readonly parked: boolean;
 }
 
 const STORE = 'print';
@@ -16,12 +18,12 @@ export class PrintJournal {
   #database: Promise<IDBDatabase | undefined> | undefined;
 
   /** A new job begins; the last one is forgotten. */
-  async begin(job: Omit<Standing, 'journal'>, journal: Journal): Promise<void> {
-    await this.#put({ job, journal });
+  async begin(job: Omit<Standing, 'journal' | 'parked'>, journal: Journal): Promise<void> {
+    await this.#put({ job, journal, parked: false });
   }
 
-  async reached(journal: Journal): Promise<void> {
-    await this.#put({ journal });
+  async reached(journal: Journal, parked: boolean): Promise<void> {
+    await this.#put({ journal, parked });
   }
 
   async ended(): Promise<void> {
@@ -33,9 +35,9 @@ export class PrintJournal {
   async standing(): Promise<Standing | undefined> {
     const store = await this.#store('readonly');
     if (store === undefined) return undefined;
-    const [job, journal] = await Promise.all([done(store.get('job')), done(store.get('journal'))]);
+    const [job, journal, parked] = await Promise.all(['job', 'journal', 'parked'].map((key) => done(store.get(key))));
     if (job === undefined || journal === undefined) return undefined;
-    return { ...(job as Omit<Standing, 'journal'>), journal: journal as Journal };
+    return { ...(job as Omit<Standing, 'journal' | 'parked'>), journal: journal as Journal, parked: parked === true };
   }
 
   async #put(values: Readonly<Record<string, unknown>>): Promise<void> {

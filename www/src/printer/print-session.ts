@@ -15,6 +15,9 @@ const AUTO_SPEEDS = [115200, 250000, 500000, 1000000, 230400, 57600];
 /** Where the speed at which a kind of port last answered is kept. */
 const SPEED_KEY = 'foothold-speed';
 
+/** The journal of a job that begins. */
+const NOTHING_YET: Journal = { acked_line: null, z: null, layer: 0 };
+
 /** A file to print. */
 export interface PrintFile {
   readonly name: string;
@@ -37,6 +40,8 @@ export class PrintSession {
   /** The file that was read or is being read, and where it shall begin. */
   #wanted: { file: PrintFile; begin: Begin } | undefined;
   #outline: Outline | undefined;
+  /** The job waits, or is on its way into or out of a pause. */
+  #parked = false;
   #uploading: AbortController | undefined;
 
   constructor(store: PrintStore, module: Promise<WebAssembly.Module>) {
@@ -233,7 +238,7 @@ export class PrintSession {
       case 'temperatures':
         this.update(withSample(state, event.data, Date.now()));
         if (state.standing === undefined || state.kept === false) return;
-        this.update({ kept: !isCold(state.standing, event.data) });
+        this.update({ kept: !state.standing.parked && !isCold(state.standing, event.data) });
         return;
       case 'message':
         this.update(withLog(state, { from: 'printer', text: event.data }));
@@ -262,6 +267,7 @@ export class PrintSession {
 
   #entered(printer: PrintState['printer']): void {
     this.#vigil.keep(hasJob(printer));
+    if (hasJob(printer)) this.#parked = printer !== 'printing' && printer !== 'finishing';
     const waits = printer === 'parking' || printer === 'paused';
     this.update(waits ? { printer } : { printer, paused: undefined });
   }
@@ -279,13 +285,15 @@ export class PrintSession {
       void this.#journal.ended();
       return;
     }
-    this.update({ standing: { name: wanted.file.name, text: wanted.file.text, outline, journal } });
-    void this.#journal.reached(journal);
+    this.update({
+      standing: { name: wanted.file.name, text: wanted.file.text, outline, journal, parked: this.#parked },
+    });
+    void this.#journal.reached(journal, this.#parked);
   }
 
   #reached(journal: Journal, resends: number): void {
     this.update({ journal, resends });
-    void this.#journal.reached(journal);
+    void this.#journal.reached(journal, this.#parked);
   }
 
   #read(outline: Outline): void {
@@ -301,7 +309,8 @@ export class PrintSession {
     const outline = this.#outline;
     if (wanted === undefined || outline === undefined) return;
     const { file, begin } = wanted;
-    const journal: Journal = { acked_line: null, z: null, layer: 0 };
+    const { standing } = this.#store.state;
+    const journal: Journal = begin.kind === 'start' || standing === undefined ? NOTHING_YET : standing.journal;
     const job = { name: file.name, outline, began: Date.now(), result: file.result };
     this.update({ job, journal, end: undefined, standing: undefined, doubt: undefined, resends: 0 });
     void this.#journal.begin({ name: file.name, text: file.text, outline }, journal);

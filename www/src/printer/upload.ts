@@ -35,7 +35,7 @@ export class UploadError extends Error {
 export function serverBase(address: string): URL | undefined {
   const typed = address.trim();
   const text = /^[a-z]+:\/\//i.test(typed) ? typed : `http://${typed}`;
-  const url = typed !== '' && URL.canParse(text) ? new URL(text.replace(/\/*$/, '/')) : undefined;
+  const url = /^\S+$/.test(typed) && URL.canParse(text) ? new URL(text.replace(/\/*$/, '/')) : undefined;
   return url !== undefined && /^https?:$/.test(url.protocol) ? url : undefined;
 }
 

@@ -36,7 +36,7 @@ export class PrintNetwork extends PrintPart {
       <form @submit=${this.#submit}>
         <label class="line">
           <span>${words.server}</span>
-          <select @change=${(event: Event) => this.#change({ kind: (event.target as HTMLSelectElement).value as ServerKind })}>
+          <select aria-label=${words.server} @change=${(event: Event) => this.#change({ kind: (event.target as HTMLSelectElement).value as ServerKind })}>
             ${KINDS.map((it) => html`<option value=${it} ?selected=${it === this.#server.kind}>${words.names[it]}</option>`)}
           </select>
         </label>

@@ -5,6 +5,9 @@ import type { Standing } from '../printer/journal.ts';
 import { hasJob } from '../printer/link.ts';
 import { PrintPart } from './print-part.ts';
 
+/** How far a pause lifts the head, mm: as the engine's park lines do. */
+const PARK_LIFT = 5;
+
 export class PrintStanding extends PrintPart {
   #layer: number | undefined;
   #height: number | undefined;
@@ -43,22 +46,24 @@ export class PrintStanding extends PrintPart {
     `;
   }
 
-  #atLayer({ outline, journal }: Standing): TemplateResult {
+  #atLayer({ outline, journal, parked }: Standing): TemplateResult {
     const words = t.printing.standing;
     const count = outline.layers.length;
-    if (count === 0) return html`<p>${words.lost}</p>`;
+    const why = parked ? words.parked : words.lost;
+    if (count === 0) return html`<p>${why}</p>`;
     const layer = this.#layer ?? Math.min(Math.max(journal.layer, 1), count);
-    const height = this.#height ?? journal.z ?? outline.layers[layer - 1]?.z ?? 0;
+    const left = journal.z ?? outline.layers[layer - 1]?.z ?? 0;
+    const height = this.#height ?? left + (parked ? PARK_LIFT : 0);
     const begin = (): void => this.printing?.goOn({ kind: 'layer', layer: layer - 1, z: height });
     return html`
-      <p>${words.lost}</p>
+      <p>${why}</p>
       ${this.#number(words.layer, layer, 1, count, 1, (value) => {
         this.#layer = Math.round(value);
       })}
       ${this.#number(words.height, height, 0, 2000, 0.01, (value) => {
         this.#height = value;
       })}
-      <p class="hint">${words.heightHint}</p>
+      <p class="hint">${parked ? words.parkedHint : words.heightHint}</p>
       <div class="row buttons">
         <button type="button" class="button primary" @click=${begin}>${words.begin}</button>
       </div>
