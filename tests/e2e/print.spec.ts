@@ -310,16 +310,17 @@ for (const turn of [0, 1]) {
 
 test('a printer that answers at once, and never more in flight than its buffer holds', async ({ page }, info) => {
   const lines = process.env['FOOTHOLD_LONG'] === '1' ? 200_000 : 20_000;
-  await start(page, { printer: { moveMs: 0, heatRate: 1e9 } });
+  await start(page, { printer: { moveMs: 0 } });
   await connected(page);
+  const moves = commands(job(lines)).filter((line) => line.startsWith('G1'));
   const began = Date.now();
-  await printFile(page, 'fast.gcode', job(lines));
+  await printFile(page, 'fast.gcode', moves.join('\n'));
   await expect(ended(page)).toContainText('is printed', { timeout: 100_000 });
   const speed = Math.round(lines / ((Date.now() - began) / 1000));
   info.annotations.push({ type: 'acknowledged lines a second', description: String(speed) });
   console.log(`${speed} acknowledged lines a second through the page`);
-  const { moves, fullest, overruns } = await seen(page);
-  expect([moves, overruns]).toEqual([lines, 0]);
+  const { moves: made, fullest, overruns } = await seen(page);
+  expect([made, overruns]).toEqual([lines, 0]);
   expect(fullest).toBeLessThanOrEqual(127);
 });
 

@@ -100,6 +100,8 @@ class Port {
 
   state() {
     const sim = this.#sim;
+    // What was written before the port closed still arrives.
+    if (!this.isOpen) sim.read(performance.now());
     const seen = { accepted: sim.accepted(), halted: sim.halted(), moves: sim.moves() };
     return { ...seen, overruns: sim.overruns(), fullest: sim.fullest(), opens: this.opens, open: this.isOpen, inPage };
   }
