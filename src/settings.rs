@@ -143,6 +143,7 @@ impl Settings {
             acceleration: self.acceleration.clone(),
             cooling: self.cooling.clone(),
             first_layer_speed: self.first_layer.speed,
+            seam_gap: self.seam.gap,
         }
     }
 }

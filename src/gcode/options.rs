@@ -262,6 +262,8 @@ pub struct GcodeOptions {
     pub cooling: CoolingOptions,
     /// Setting `first_layer.speed`, mm/s: no bead of the first layer is printed faster. Default 25.
     pub first_layer_speed: f64,
+    /// Setting `seam.gap`, mm: closed walls end this much before their start. Default 0.
+    pub seam_gap: f64,
 }
 
 impl Default for GcodeOptions {
@@ -274,6 +276,7 @@ impl Default for GcodeOptions {
             acceleration: AccelerationOptions::default(),
             cooling: CoolingOptions::default(),
             first_layer_speed: 25.0,
+            seam_gap: 0.0,
         }
     }
 }

@@ -180,8 +180,8 @@ impl<'a> Planner<'a> {
         for &to in &places[1..] {
             self.bead(to, area, feed);
         }
-        if path.closed {
-            self.bead(places[0], area, feed);
+        if let Some(end) = self.closing_end(path, places) {
+            self.bead(end, area, feed);
         }
     }
 
@@ -191,9 +191,22 @@ impl<'a> Planner<'a> {
         for (i, &to) in places.iter().enumerate().skip(1) {
             self.tapered(path.role, to, [width(i - 1), width(i)]);
         }
-        if path.closed {
-            self.tapered(path.role, places[0], [width(places.len() - 1), width(0)]);
+        if let Some(end) = self.closing_end(path, places) {
+            self.tapered(path.role, end, [width(places.len() - 1), width(0)]);
         }
+    }
+
+    /// Where a closed path ends: at its start, walls a little before it, so that the end does not
+    /// press on the start. `None` for an open path, and where nothing is left of the last edge.
+    fn closing_end(&self, path: &Path, places: &[Place]) -> Option<Place> {
+        let (&first, &last) = (places.first()?, places.last()?);
+        let gap = match path.role {
+            Role::OuterWall | Role::InnerWall | Role::OverhangWall => self.options.seam_gap,
+            _ => 0.0,
+        };
+        let length = last.distance(first);
+        let is_left = path.closed && (gap == 0.0 || length > gap);
+        is_left.then(|| if gap == 0.0 { first } else { Place::of(first.mm().lerp(last.mm(), gap / length)) })
     }
 
     /// A straight bead from `from` to `to` wide, in pieces of one width each.

@@ -30,17 +30,26 @@ use crate::mesh::Mesh;
 use crate::orientation::{OrientationError, OrientationReport};
 use crate::polygon::measure::Bounds;
 use crate::polygon::{DVec2, PolygonSet};
-use crate::region::Path;
 use crate::region::first_layer::draw_in;
+use crate::region::{Bead, Path};
 use crate::settings::Settings;
 use crate::slice::heights::plan_layers;
 use crate::slice::{Axis, LayerSpec, slice_mesh};
 use crate::support::{
     SupportError, SupportInput, SupportMethod, SupportWarning, Supports, check_options, plan_supports,
 };
+use crate::toolpath::infill::line_density;
+use crate::toolpath::seam::{SeamLine, SeamPosition, chain_seams};
+use crate::toolpath::walls::lay_walls;
 
 /// Milliseconds since some fixed moment; the core has no clock of its own.
 pub type Clock<'a> = &'a dyn Fn() -> f64;
+
+/// Layers on which the density of sparse infill is measured.
+const DENSITY_SAMPLES: usize = 5;
+
+/// Seams are chained on every so many layers.
+const SEAM_STEP: usize = 5;
 
 /// A model with the name it is known by, such as its file's.
 #[derive(Debug, Clone)]
@@ -110,6 +119,10 @@ pub struct Job {
     placements: Vec<DMat4>,
     /// For each layer the beads of base layers and supports, in printing order.
     laid: Vec<Vec<Path>>,
+    /// See [`RangePlan::seams`].
+    seams: Vec<SeamLine>,
+    /// See [`RangePlan::line_density`].
+    line_density: f64,
     orientation: Option<OrientationReport>,
     adhesion: AdhesionReport,
     support: Option<SupportReport>,
@@ -145,6 +158,8 @@ impl Job {
             warnings: model_warnings(models).into_iter().chain(turned.warnings).collect(),
             orientation: turned.report,
             laid: Vec::new(),
+            seams: Vec::new(),
+            line_density: settings.infill.density,
             support: None,
             adhesion: AdhesionReport::default(),
             timing: Timing::default(),
@@ -191,6 +206,8 @@ impl Job {
         self.adhesion = AdhesionReport::new(kind, &foundation.figures, clock() - supported);
         self.timing.support = supported - started;
         self.timing.adhesion = clock() - supported;
+        self.line_density = self.infill_line_density();
+        self.seams = self.chain_seams();
         self.warnings.extend(foundation.warnings.iter().map(adhesion_warning));
         self.warnings.extend(supports.warnings().iter().map(support_warning));
         self.support = SupportReport::of(&supports);
@@ -205,6 +222,33 @@ impl Job {
         }
         self.layers = vec![None; self.specs.len()];
         Ok(())
+    }
+
+    /// See [`RangePlan::line_density`]; from a few layers spread over the part's height.
+    fn infill_line_density(&self) -> f64 {
+        let Settings { walls, infill, layers, .. } = &self.settings;
+        if infill.density >= 1.0 {
+            return infill.density;
+        }
+        let of_sample = |i: usize| self.specs[(2 * i + 1) * self.specs.len() / (2 * DENSITY_SAMPLES)].slice_z;
+        let heights: Vec<f64> = (0..DENSITY_SAMPLES).map(of_sample).collect();
+        let bead = Bead { width: walls.width, height: layers.height };
+        let sections = slice_mesh(&self.mesh, Axis::Z, &heights, PRINT_RESOLUTION).into_iter();
+        let inside: Vec<PolygonSet> = sections.map(|s| lay_walls(&s.area, bead, walls.count).inner).collect();
+        line_density(&inside, bead, infill)
+    }
+
+    /// See [`RangePlan::seams`]; from every few layers, which is enough to follow a corner.
+    fn chain_seams(&self) -> Vec<SeamLine> {
+        if self.settings.seam.position != SeamPosition::Aligned || self.settings.walls.count == 0 {
+            return Vec::new();
+        }
+        let every_few = self.specs.iter().step_by(SEAM_STEP);
+        let mut heights: Vec<f64> = every_few.chain(self.specs.last()).map(|s| s.slice_z).collect();
+        heights.dedup();
+        let sections = slice_mesh(&self.mesh, Axis::Z, &heights, PRINT_RESOLUTION).into_iter();
+        let sections: Vec<(f64, PolygonSet)> = heights.into_iter().zip(sections.map(|s| s.area)).collect();
+        chain_seams(&sections)
     }
 
     /// Supports of the whole part.
@@ -287,6 +331,8 @@ impl Job {
             specs: self.specs[low..high].to_vec(),
             first: first - low,
             last: last - low,
+            seams: self.seams.clone(),
+            line_density: self.line_density,
             laid: self.laid[first.min(self.laid.len())..last.min(self.laid.len())].to_vec(),
         }
     }

@@ -7,21 +7,25 @@ use super::Clock;
 use super::report::{Timing, Warning};
 use crate::gcode::{LayerInput, LayerSummary, layer_gcode};
 use crate::mesh::Mesh;
-use crate::polygon::PolygonSet;
+use crate::polygon::{DVec2, PolygonSet};
 use crate::region::first_layer::draw_in;
 use crate::region::shell::{Exposure, Shells, divide, exposure, hair_of_walls};
 use crate::region::{Bead, Path, Role};
 use crate::settings::Settings;
 use crate::slice::{Axis, LayerSpec, Section, slice_triangles};
-use crate::toolpath::infill::{fill_solid, fill_sparse};
+use crate::toolpath::infill::{InfillLayer, fill_solid, fill_sparse, fill_surface};
 use crate::toolpath::medial::{ThinFill, fill_thin};
-use crate::toolpath::seam::start_at_seam;
+use crate::toolpath::seam::{SeamLine, place_seams};
 use crate::toolpath::walls::lay_walls;
 use crate::toolpath::{LayerParts, LayerPaths, order_layer};
 
 /// By how much a contour may be simplified for printing, mm: an eighth of what a printer's
 /// positioning resolves.
 pub const PRINT_RESOLUTION: f64 = 0.0125;
+
+/// A line of seams is taken to go on this far above and below the heights at which it was found, mm:
+/// about as far as those are apart.
+const SEAM_REACH: f64 = 1.0;
 
 /// What a range needs to know besides its triangles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -34,6 +38,11 @@ pub struct RangePlan {
     pub first: usize,
     /// Place in `specs` after the last layer to print.
     pub last: usize,
+    /// Where the seams of outer walls run up the part.
+    pub seams: Vec<SeamLine>,
+    /// Density at which sparse infill is laid, so that with what joins its lines the print as a whole
+    /// has the density that is set.
+    pub line_density: f64,
     /// For each layer to print what the global phase has laid, base layers and supports, in
     /// printing order; printed before the part.
     pub laid: Vec<Vec<Path>>,
@@ -197,7 +206,13 @@ fn lay_paths(
     let mut gaps = vec![walls.thin_inner];
     for region in regions {
         if region.role == Role::Infill {
-            parts.fills.extend(fill_sparse(&region.area, bead, spec.index, &settings.infill));
+            let layer = InfillLayer { index: spec.index, z: spec.print_z };
+            let density = plan.line_density;
+            parts.fills.extend(fill_sparse(&region.area, bead, layer, density, &settings.infill));
+        } else if matches!(region.role, Role::TopSkin | Role::BottomSkin) && settings.skin.monotonic {
+            let (rows, narrow) = fill_surface(&region.area, region.role, bead, spec.index);
+            parts.rows.extend(rows);
+            gaps.push(narrow);
         } else {
             let (paths, narrow) = fill_solid(&region.area, region.role, bead, spec.index);
             parts.fills.extend(paths);
@@ -212,10 +227,11 @@ fn lay_paths(
     for gap in gaps {
         parts.fills.extend(fill_thin(&gap, &options).paths.into_iter().map(|path| path.widened(overlap)));
     }
-    for (_, path) in &mut parts.walls {
-        start_at_seam(&mut path.points, settings.seam.position);
-    }
-    let ordered = order_layer(parts, &outline);
+    let seams: Vec<DVec2> = plan.seams.iter().filter_map(|s| s.at(spec.slice_z, SEAM_REACH)).collect();
+    let mut outer: Vec<&mut Path> =
+        parts.walls.iter_mut().filter(|(depth, _)| *depth == 0).map(|(_, path)| path).collect();
+    place_seams(&mut outer, &settings.seam, &seams, spec.index);
+    let ordered = order_layer(parts, &outline, spec.index, settings.seam.position);
     meta.timing.regions += after_regions - before_regions;
     meta.timing.toolpath += clock() - after_regions + before_regions - started;
     ordered

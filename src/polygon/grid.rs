@@ -129,7 +129,8 @@ pub struct EdgeGrid {
     frame: Cells,
     /// `edges[starts[i]..starts[i + 1]]` touch the box of cell i.
     starts: Vec<u32>,
-    edges: Vec<(DVec2, DVec2)>,
+    /// Edges with their places in the list that the grid was made of.
+    edges: Vec<(DVec2, DVec2, u32)>,
 }
 
 impl EdgeGrid {
@@ -146,10 +147,10 @@ impl EdgeGrid {
             grid.starts[i] += grid.starts[i - 1];
         }
         let mut next = grid.starts.clone();
-        grid.edges = vec![(DVec2::ZERO, DVec2::ZERO); next[next.len() - 1] as usize];
-        for &(a, b) in all {
+        grid.edges = vec![(DVec2::ZERO, DVec2::ZERO, 0); next[next.len() - 1] as usize];
+        for (&(a, b), index) in all.iter().zip(0..) {
             grid.each_cell(a, b, |grid, place| {
-                grid.edges[next[place] as usize] = (a, b);
+                grid.edges[next[place] as usize] = (a, b, index);
                 next[place] += 1;
             });
         }
@@ -158,13 +159,36 @@ impl EdgeGrid {
 
     /// Whether the segment a-b crosses or touches an edge.
     pub fn crosses(&self, a: DVec2, b: DVec2) -> bool {
+        self.cells_met(a, b).any(|place| self.in_cell(place).iter().any(|&(c, d, _)| do_cross(a, b, c, d)))
+    }
+
+    /// The edges that the segment a-b crosses, by their places in the list, in the order in which it
+    /// meets them; with each how far along it is met, 0 at a and 1 at b.
+    ///
+    /// A point exactly on a line counts as right of it. So a line of segments crosses a closed
+    /// contour an even number of times if it begins and ends outside.
+    pub fn crossings(&self, a: DVec2, b: DVec2) -> Vec<(f64, usize)> {
+        let mut found: Vec<(f64, usize)> = Vec::new();
+        for place in self.cells_met(a, b) {
+            for &(c, d, index) in self.in_cell(place) {
+                found.extend(crossing_at(a, b, c, d).map(|t| (t, index as usize)));
+            }
+        }
+        found.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+        // An edge is met in each cell that both touch.
+        found.dedup();
+        found
+    }
+
+    fn in_cell(&self, place: usize) -> &[(DVec2, DVec2, u32)] {
+        &self.edges[self.starts[place] as usize..self.starts[place + 1] as usize]
+    }
+
+    /// Numbers of the cells that the segment a-b may touch.
+    fn cells_met(&self, a: DVec2, b: DVec2) -> impl Iterator<Item = usize> + '_ {
         let (low, high) = (self.frame.column_and_row(a.min(b)), self.frame.column_and_row(a.max(b)));
-        let hit = |place: usize| {
-            let range = self.starts[place] as usize..self.starts[place + 1] as usize;
-            self.edges[range].iter().any(|&(c, d)| do_cross(a, b, c, d))
-        };
-        (low.1..=high.1)
-            .any(|row| self.columns_met(a, b, row, low.0, high.0).any(|x| hit(self.frame.number(x, row))))
+        let columns = move |row| self.columns_met(a, b, row, low.0, high.0);
+        (low.1..=high.1).flat_map(move |row| columns(row).map(move |column| self.frame.number(column, row)))
     }
 
     fn each_cell(&mut self, a: DVec2, b: DVec2, mut visit: impl FnMut(&mut EdgeGrid, usize)) {
@@ -197,6 +221,14 @@ impl EdgeGrid {
         let column = |x: f64| self.frame.column_and_row(dvec2(x, bottom)).0;
         (column(p.min(q)) - 1).max(first)..=(column(p.max(q)) + 1).min(last)
     }
+}
+
+/// How far along a-b it crosses c-d; a point on the other's line counts as right of it.
+fn crossing_at(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Option<f64> {
+    let side = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
+    let (from, to) = (side(c, d, a), side(c, d, b));
+    let crosses = (from > 0.0) != (to > 0.0) && (side(a, b, c) > 0.0) != (side(a, b, d) > 0.0);
+    crosses.then(|| from / (from - to))
 }
 
 /// Whether two closed segments have a point in common, collinear overlap left aside.
@@ -240,6 +272,18 @@ mod tests {
             for line in query.chunks_exact(2) {
                 let by_search = edges.iter().any(|&(c, d)| do_cross(line[0], line[1], c, d));
                 prop_assert_eq!(grid.crosses(line[0], line[1]), by_search);
+            }
+        }
+
+        #[test]
+        fn crossings_are_those_of_a_full_search(ends in points(80), query in points(20)) {
+            let edges: Vec<(DVec2, DVec2)> = ends.chunks_exact(2).map(|e| (e[0], e[1])).collect();
+            let grid = EdgeGrid::new(&edges);
+            for line in query.chunks_exact(2) {
+                let of_edge = |(i, &(c, d)): (usize, &(DVec2, DVec2))| Some((crossing_at(line[0], line[1], c, d)?, i));
+                let mut by_search: Vec<(f64, usize)> = edges.iter().enumerate().filter_map(of_edge).collect();
+                by_search.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+                prop_assert_eq!(grid.crossings(line[0], line[1]), by_search);
             }
         }
     }

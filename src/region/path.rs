@@ -67,6 +67,25 @@ impl Path {
         self
     }
 
+    /// Turns a closed path so that it starts at this point.
+    pub fn start_at(&mut self, index: usize) {
+        self.points.rotate_left(index);
+        if let Width::Varying(widths) = &mut self.width {
+            widths.rotate_left(index);
+        }
+    }
+
+    /// Adds a point of the line before point `index`, where the bead is as wide as it was.
+    pub fn insert(&mut self, index: usize, p: DVec2) {
+        if let Width::Varying(widths) = &mut self.width {
+            let (before, after) = (index - 1, index % widths.len());
+            let (a, b) = (self.points[before], self.points[after]);
+            let share = a.distance(p) / a.distance(b).max(f64::MIN_POSITIVE);
+            widths.insert(index, widths[before] + (widths[after] - widths[before]) * share);
+        }
+        self.points.insert(index, p);
+    }
+
     /// The same bead laid the other way.
     pub fn reversed(mut self) -> Path {
         self.points.reverse();

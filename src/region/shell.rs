@@ -10,6 +10,9 @@ crate::options! {
         top_layers: u32 = 5, "Top layers", "", 0.0..=1000.0;
         /// Solid layers over every bottom surface.
         bottom_layers: u32 = 4, "Bottom layers", "", 0.0..=1000.0;
+        /// Whether the lines of skins are laid one beside the other in one direction only: the surface
+        /// shines evenly, for a little more travel.
+        monotonic: bool = true, "Monotonic skins";
     }
 }
 

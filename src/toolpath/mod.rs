@@ -1,8 +1,10 @@
 //! Centre lines of beads, in printing order.
 
+mod comb;
 pub mod infill;
 pub mod medial;
 pub mod order;
+mod route;
 pub mod seam;
 pub mod travel;
 pub mod walls;

@@ -1,13 +1,17 @@
 //! Parallel lines clipped to an area, and linked along its border where it is filled solidly.
 //!
-//! In the hatch's own frame lines run along u; line k lies at v = (k + 1/2) distance, counted from
+//! In the hatch's own frame lines run along u; line k lies at v = (k + phase) distance, counted from
 //! the bed's origin, so that lines of different islands and layers meet.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
+use super::border::{Border, Piece};
 use crate::polygon::{Contour, DVec2, Join, PolygonSet, dvec2};
 use crate::region::Bead;
 use crate::region::{Path, Role};
+
+/// Sine of 60 degrees.
+const SIN_60: f64 = 0.866_025_403_784_438_6;
 
 /// A family of parallel lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,13 +20,21 @@ pub struct Hatch {
     direction: DVec2,
     /// Distance between neighbouring lines, mm.
     distance: f64,
+    /// Offset of line 0 in distances.
+    phase: f64,
 }
 
 impl Hatch {
     /// Lines at 45 degrees on even layers, at 135 degrees on odd ones.
     pub fn diagonal(layer: u32, distance: f64) -> Hatch {
         let across = if layer.is_multiple_of(2) { FRAC_1_SQRT_2 } else { -FRAC_1_SQRT_2 };
-        Hatch { direction: dvec2(across, FRAC_1_SQRT_2), distance }
+        Hatch { direction: dvec2(across, FRAC_1_SQRT_2), distance, phase: 0.5 }
+    }
+
+    /// Three families at 60 degrees to each other, whose lines meet in single points: triangles.
+    pub fn triangles(distance: f64) -> [Hatch; 3] {
+        let family = |x: f64, y: f64| Hatch { direction: dvec2(x, y), distance, phase: 0.0 };
+        [family(1.0, 0.0), family(0.5, SIN_60), family(-0.5, SIN_60)]
     }
 
     fn to_frame(self, p: DVec2) -> DVec2 {
@@ -34,12 +46,12 @@ impl Hatch {
     }
 
     fn offset_of(self, line: i64) -> f64 {
-        (line as f64 + 0.5) * self.distance
+        (line as f64 + self.phase) * self.distance
     }
 
     /// Lines whose offset lies in [low, high).
     fn lines_between(self, low: f64, high: f64) -> std::ops::Range<i64> {
-        let first_at = |v: f64| (v / self.distance - 0.5).ceil() as i64;
+        let first_at = |v: f64| (v / self.distance - self.phase).ceil() as i64;
         first_at(low)..first_at(high)
     }
 }
@@ -131,10 +143,18 @@ fn pair_along_lines(crossings: &[Crossing]) -> Vec<usize> {
 }
 
 /// The pieces of the hatch's lines inside the area, line by line.
-pub fn hatch(area: &PolygonSet, hatch: Hatch) -> Vec<(DVec2, DVec2)> {
+pub(super) fn hatch(area: &PolygonSet, border: &Border<'_>, hatch: Hatch) -> Vec<Piece> {
     let weave = Weave::new(area, hatch);
-    let order = weave.in_line_order();
-    order.chunks_exact(2).map(|pair| (weave.point(pair[0]), weave.point(pair[1]))).collect()
+    let end = |index: usize| {
+        let Crossing { contour, edge, .. } = weave.crossings[index];
+        let p = weave.point(index);
+        (p, border.place(contour, edge, p))
+    };
+    let piece = |pair: &[usize]| {
+        let [(a, start), (b, stop)] = [end(pair[0]), end(pair[1])];
+        Piece { points: vec![a, b], ends: [start, stop] }
+    };
+    weave.in_line_order().chunks_exact(2).map(piece).collect()
 }
 
 /// A link along the border may be this many line distances long.
@@ -159,6 +179,108 @@ pub fn hatch_linked(area: &PolygonSet, role: Role, bead: Bead, hatch: Hatch) -> 
         }
     }
     (paths, narrow)
+}
+
+/// Like [`hatch_linked`], but monotonic: a line is laid only when those beside it on its lower side
+/// are, so that all lines lean on their neighbours the same way and the surface shines evenly. The
+/// beads are to be printed in the given order and direction.
+pub fn hatch_monotonic(area: &PolygonSet, role: Role, bead: Bead, hatch: Hatch) -> (Vec<Path>, PolygonSet) {
+    let half = bead.spacing() / 2.0;
+    let core = area.offset(-half, Join::WALL);
+    let narrow = narrow_places(area, &core.offset(half, Join::WALL), bead);
+    let weave = Weave::new(&core, hatch);
+    let lines = Stack::of(&weave);
+    let mut waiting: Vec<usize> = lines.below.clone();
+    let mut free: Vec<usize> = (0..waiting.len()).filter(|&i| waiting[i] == 0).collect();
+    let mut laid = vec![false; weave.crossings.len()];
+    let mut paths: Vec<Path> = Vec::new();
+    let mut here = DVec2::ZERO;
+    while let Some((at, end)) = lines.nearest_end(&weave, &free, here) {
+        let mut points = vec![drawn_out(&weave, end, half)];
+        let (mut at, mut end) = (at, end);
+        loop {
+            let piece = free.swap_remove(at);
+            let out = weave.partner[end];
+            (laid[end], laid[out]) = (true, true);
+            for &next in &lines.above[piece] {
+                waiting[next] -= 1;
+                if waiting[next] == 0 {
+                    free.push(next);
+                }
+            }
+            let up = nearest_link(&weave, &core, out, &laid).and_then(|(to, link)| {
+                let at = free.iter().position(|&f| f == lines.piece_of[to])?;
+                Some((at, to, link))
+            });
+            let Some((next_at, to, link)) = up else {
+                points.push(drawn_out(&weave, out, half));
+                break;
+            };
+            points.push(weave.point(out));
+            points.extend(link);
+            points.push(weave.point(to));
+            (at, end) = (next_at, to);
+        }
+        here = points.last().copied().unwrap_or(here);
+        paths.push(Path::open(role, points, bead.width));
+    }
+    (paths, narrow)
+}
+
+/// The pieces of a weave's lines and which lie side by side.
+struct Stack {
+    /// The two crossings of each piece, line by line.
+    pieces: Vec<[usize; 2]>,
+    /// The piece of each crossing.
+    piece_of: Vec<usize>,
+    /// How many pieces of the line below lie beside each piece.
+    below: Vec<usize>,
+    /// Those of the line above.
+    above: Vec<Vec<usize>>,
+}
+
+impl Stack {
+    fn of(weave: &Weave) -> Stack {
+        let pieces: Vec<[usize; 2]> =
+            weave.in_line_order().chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
+        let mut piece_of = vec![0; weave.crossings.len()];
+        for (i, piece) in pieces.iter().enumerate() {
+            piece.iter().for_each(|&end| piece_of[end] = i);
+        }
+        let mut stack =
+            Stack { below: vec![0; pieces.len()], above: vec![Vec::new(); pieces.len()], pieces, piece_of };
+        stack.find_neighbours(weave);
+        stack
+    }
+
+    /// Sweeps over each two lines that follow each other.
+    fn find_neighbours(&mut self, weave: &Weave) {
+        let line = |i: usize| weave.crossings[self.pieces[i][0]].line;
+        let reach = |i: usize| self.pieces[i].map(|end| weave.crossings[end].u);
+        let mut first = 0;
+        for upper in 0..self.pieces.len() {
+            // Pieces that end before this one begins end before all that follow it on its line.
+            while line(first) + 1 < line(upper)
+                || line(first) + 1 == line(upper) && reach(first)[1] < reach(upper)[0]
+            {
+                first += 1;
+            }
+            let beside =
+                (first..upper).take_while(|&i| line(i) + 1 == line(upper) && reach(i)[0] <= reach(upper)[1]);
+            for lower in beside.collect::<Vec<_>>() {
+                self.above[lower].push(upper);
+                self.below[upper] += 1;
+            }
+        }
+    }
+
+    /// Of the free pieces' ends the one nearest to `here`: place in `free`, crossing.
+    fn nearest_end(&self, weave: &Weave, free: &[usize], here: DVec2) -> Option<(usize, usize)> {
+        let ends = free.iter().enumerate().flat_map(|(at, &piece)| self.pieces[piece].map(|end| (at, end)));
+        ends.map(|(at, end)| (weave.point(end).distance_squared(here), at, end))
+            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)))
+            .map(|(_, at, end)| (at, end))
+    }
 }
 
 /// Area under which places too narrow for a bead are not worth a look, mm2.
@@ -263,15 +385,42 @@ mod tests {
     #[test]
     fn lines_stay_inside_and_their_distance_gives_the_density() {
         let square = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(40.0, 40.0));
-        let pieces = hatch(&square, Hatch::diagonal(0, 2.0));
-        let total: f64 = pieces.iter().map(|(a, b)| a.distance(*b)).sum();
+        let pieces = hatch(&square, &Border::of(&square), Hatch::diagonal(0, 2.0));
+        let ends = || pieces.iter().map(|p| (p.points[0], p.points[1]));
+        let total: f64 = ends().map(|(a, b)| a.distance(b)).sum();
         assert!((total * 2.0 / 1600.0 - 1.0).abs() < 0.01);
         let grown = square.bounds().map(|b| b.grown(1e-6));
-        for (a, b) in pieces {
+        for (a, b) in ends() {
             assert!((b - a).perp_dot(dvec2(1.0, 1.0)).abs() < 1e-6);
             let piece = crate::polygon::measure::Bounds::of_points(&[a, b]);
             assert!(grown.zip(piece).is_some_and(|(g, p)| g.contains(p)));
         }
+    }
+
+    #[test]
+    fn monotonic_lines_never_go_back() {
+        let ring = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(20.0, 20.0))
+            .difference(&PolygonSet::rectangle(dvec2(6.0, 7.0), dvec2(12.0, 13.0)));
+        let hatch = Hatch::diagonal(0, BEAD.spacing());
+        let (paths, _) = hatch_monotonic(&ring, Role::TopSkin, BEAD, hatch);
+        assert!((plastic(&paths) / ring.area() - 1.0).abs() < 0.01);
+        // Wherever two long segments lie side by side the lower one comes first.
+        let ends = |p: &Path| {
+            p.points.windows(2).map(|w| [w[0], w[1]].map(|q| hatch.to_frame(q))).collect::<Vec<_>>()
+        };
+        let lines: Vec<[DVec2; 2]> =
+            paths.iter().flat_map(ends).filter(|[a, b]| (a.y - b.y).abs() < 1e-6).collect();
+        for (i, a) in lines.iter().enumerate() {
+            for b in &lines[..i] {
+                let apart = a[0].y - b[0].y;
+                let beside =
+                    a[0].x.min(a[1].x) < b[0].x.max(b[1].x) && b[0].x.min(b[1].x) < a[0].x.max(a[1].x);
+                assert!(
+                    !beside || apart > -1.5 * BEAD.spacing() && apart > 0.0 || apart < -1.5 * BEAD.spacing()
+                );
+            }
+        }
+        assert!(paths.len() <= 6, "{} beads", paths.len());
     }
 
     #[test]

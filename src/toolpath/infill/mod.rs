@@ -1,10 +1,15 @@
 //! Lines that fill an area: solid, or sparse in a pattern.
 
+mod border;
+mod concentric;
+mod gyroid;
+mod honeycomb;
 pub mod lines;
 
-use crate::polygon::PolygonSet;
+use crate::polygon::{Join, Polygon, PolygonSet};
 use crate::region::Bead;
 use crate::region::{Path, Role};
+use border::{Border, Piece};
 use lines::Hatch;
 
 /// How sparse infill is laid.
@@ -17,16 +22,39 @@ pub enum InfillPattern {
     Grid,
     /// Lines in one diagonal direction, turned by 90 degrees from layer to layer.
     Lines,
+    /// Lines in three directions on every layer, which meet in points: stiff walls in between.
+    Triangles,
+    /// A wavy surface that holds in all directions and never crosses itself.
+    Gyroid,
+    /// Hexagons, the same on every layer.
+    Honeycomb,
+    /// Loops that follow the walls: for soft materials.
+    Concentric,
 }
 
 crate::options! {
     /// What fills the part inside its walls and skins.
     pub struct InfillOptions {
-        /// Share of the inside that is filled with material; 0 leaves it hollow, 1 makes it solid.
+        /// Share of the inside that is filled with material; 0 leaves it hollow, 1 makes it solid. What
+        /// joins the lines counts, so that lines lie a little farther apart in small parts.
         density: f64 = 0.15, "Infill density", "", 0.0..=1.0;
         /// How the lines run.
         pattern: InfillPattern = InfillPattern::Grid, "Infill pattern";
+        /// How far sparse infill reaches into the innermost wall, as a share of its line width; 0 lets
+        /// it touch.
+        overlap: f64 = 0.25, "Infill overlap", "", 0.0..=0.5;
+        /// Longest way along the walls on which neighbouring lines are joined; 0 joins none.
+        anchor_max: f64 = 20.0, "Longest join of infill lines", "mm", 0.0..=1000.0;
     }
+}
+
+/// A layer as far as patterns look at it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InfillLayer {
+    /// Place in the print, 0 at the bed.
+    pub index: u32,
+    /// Height of the nozzle, mm.
+    pub z: f64,
 }
 
 /// Shorter pieces of sparse infill hold nothing and only cost time, mm.
@@ -38,17 +66,101 @@ pub fn fill_solid(area: &PolygonSet, role: Role, bead: Bead, layer: u32) -> (Vec
     lines::hatch_linked(area, role, bead, Hatch::diagonal(layer, bead.spacing()))
 }
 
-/// Fills `area` with lines that take up `options.density` of it.
-pub fn fill_sparse(area: &PolygonSet, bead: Bead, layer: u32, options: &InfillOptions) -> Vec<Path> {
-    if options.density <= 0.0 {
+/// Fills a surface that is seen: like [`fill_solid`], but monotonic. Each island of the area gives one
+/// row of beads to be printed in the given order and direction.
+pub fn fill_surface(area: &PolygonSet, role: Role, bead: Bead, layer: u32) -> (Vec<Vec<Path>>, PolygonSet) {
+    let hatch = Hatch::diagonal(layer, bead.spacing());
+    let islands = area.islands().into_iter().map(Polygon::into_set);
+    let (rows, narrow): (Vec<_>, Vec<_>) =
+        islands.map(|island| lines::hatch_monotonic(&island, role, bead, hatch)).unzip();
+    (rows.into_iter().filter(|row| !row.is_empty()).collect(), PolygonSet::union_all(&narrow))
+}
+
+/// Fills `area` with lines that take up `density` of it, joined along its border. What joins them
+/// comes on top; [`line_density`] allows for it.
+pub fn fill_sparse(
+    area: &PolygonSet,
+    bead: Bead,
+    layer: InfillLayer,
+    density: f64,
+    options: &InfillOptions,
+) -> Vec<Path> {
+    if density <= 0.0 {
         return Vec::new();
     }
-    let distance = bead.spacing() / options.density;
-    let hatches = match options.pattern {
-        InfillPattern::Lines => vec![Hatch::diagonal(layer, distance)],
-        InfillPattern::Grid => vec![Hatch::diagonal(0, 2.0 * distance), Hatch::diagonal(1, 2.0 * distance)],
+    let inside = centre_lines(area, bead, options.overlap);
+    if options.pattern == InfillPattern::Concentric {
+        let loops = concentric::loops(&inside, bead.spacing() / density);
+        return loops.into_iter().map(|c| Path::closed(Role::Infill, c.points, bead.width)).collect();
+    }
+    let border = Border::of(&inside);
+    let pieces = pattern_pieces(&inside, &border, bead.spacing(), layer, density, options.pattern);
+    let joined = border.join(pieces, options.anchor_max);
+    let paths = joined.into_iter().map(|points| Path::open(Role::Infill, points, bead.width));
+    paths.filter(|path| path.length() >= SHORTEST_SPARSE_LINE).collect()
+}
+
+/// Where the centre lines of sparse beads may run: beads overlap the area's border by this share of
+/// their width, and places too narrow for one are left out.
+fn centre_lines(area: &PolygonSet, bead: Bead, overlap: f64) -> PolygonSet {
+    area.offset(-bead.width / 2.0, Join::WALL).offset(bead.width * overlap, Join::WALL)
+}
+
+/// The pattern's lines inside the area, each on its own.
+fn pattern_pieces(
+    inside: &PolygonSet,
+    border: &Border<'_>,
+    spacing: f64,
+    layer: InfillLayer,
+    density: f64,
+    pattern: InfillPattern,
+) -> Vec<Piece> {
+    let Some(bounds) = inside.bounds() else { return Vec::new() };
+    let distance = spacing / density;
+    let straight =
+        |hatches: &[Hatch]| hatches.iter().flat_map(|&h| lines::hatch(inside, border, h)).collect();
+    match pattern {
+        InfillPattern::Lines => straight(&[Hatch::diagonal(layer.index, distance)]),
+        InfillPattern::Grid => straight(&[0, 1].map(|way| Hatch::diagonal(way, 2.0 * distance))),
+        InfillPattern::Triangles => straight(&Hatch::triangles(3.0 * distance)),
+        InfillPattern::Gyroid => {
+            border.cut(&gyroid::curves(bounds, layer.z, gyroid::LENGTH_PER_PERIOD * distance))
+        }
+        InfillPattern::Honeycomb => border.cut(&honeycomb::zigzags(bounds, spacing, density)),
+        // Loops have no ends to cut or join.
+        InfillPattern::Concentric => Vec::new(),
+    }
+}
+
+/// Lines are laid no farther apart than this, in multiples of the distance without joins: skins
+/// need something to lie on.
+const FARTHEST_APART: f64 = 1.25;
+
+/// The density at which to lay lines so that together with what joins them they take up
+/// `options.density` of the given areas, which stand for the whole print.
+///
+/// Lines fill the place for their centres, a little less than the area. Joins follow the border and
+/// hardly depend on the lines' distance: what they add is measured once and taken off.
+pub fn line_density(areas: &[PolygonSet], bead: Bead, options: &InfillOptions) -> f64 {
+    let wanted = options.density;
+    let total: f64 = areas.iter().map(PolygonSet::area).sum();
+    let reached: f64 = areas.iter().map(|a| centre_lines(a, bead, options.overlap).area()).sum();
+    if reached <= 0.0 || wanted <= 0.0 {
+        return wanted;
+    }
+    let apart = InfillOptions { anchor_max: 0.0, ..options.clone() };
+    let length = |options: &InfillOptions| -> f64 {
+        let laid = |(area, index): (&PolygonSet, u32)| {
+            // One height is as good as another: only joins are looked at.
+            fill_sparse(area, bead, InfillLayer { index, z: f64::from(index) }, wanted, options)
+        };
+        areas.iter().zip(0..).flat_map(laid).map(|path| path.length()).sum()
     };
-    let pieces = hatches.into_iter().flat_map(|h| lines::hatch(area, h));
-    let long = pieces.filter(|(a, b)| a.distance(*b) >= SHORTEST_SPARSE_LINE);
-    long.map(|(a, b)| Path::open(Role::Infill, vec![a, b], bead.width)).collect()
+    let lines = match options.pattern {
+        // The outermost loop joins the others to the walls.
+        InfillPattern::Concentric => wanted * reached / bead.spacing(),
+        _ => length(&apart),
+    };
+    let joins = (length(options) - lines) * bead.spacing() / total;
+    ((wanted - joins) * total / reached).max(wanted / FARTHEST_APART)
 }

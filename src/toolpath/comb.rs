@@ -1,0 +1,221 @@
+//! Combing: ways between beads that stay inside the part where the straight one would leave it.
+//!
+//! A way that would leave follows the centre lines of the outer walls, half a line inside the
+//! outline, and is then pulled tight.
+
+use super::travel::Way;
+use crate::polygon::grid::EdgeGrid;
+use crate::polygon::{DVec2, PolygonSet};
+
+/// A way inside the part may be this much longer than the straight one; beyond, pulling the filament
+/// back costs less.
+const LONGEST_DETOUR: f64 = 2.0;
+
+/// Points nearer to a rail than this lie on it, mm: many times what rounding moves them by, and much
+/// less than a line's width.
+const ON_RAIL: f64 = 0.02;
+
+/// What keeps travels inside the part on one layer.
+pub(super) struct Comb<'a> {
+    outline: EdgeGrid,
+    /// Closed lines half a bead inside the outline.
+    rails: Vec<&'a [DVec2]>,
+    rail_grid: EdgeGrid,
+    /// Rail and edge of each edge in the grid.
+    owners: Vec<(usize, usize)>,
+}
+
+/// Where a straight way crosses a rail.
+#[derive(Debug, Clone, Copy)]
+struct Crossing {
+    at: DVec2,
+    rail: usize,
+    edge: usize,
+}
+
+impl<'a> Comb<'a> {
+    pub(super) fn new(outline: &PolygonSet, rails: Vec<&'a [DVec2]>) -> Comb<'a> {
+        let edges: Vec<(DVec2, DVec2)> = outline.contours().iter().flat_map(|c| c.edges()).collect();
+        let closed = |rail: &[DVec2]| -> Vec<(DVec2, DVec2)> {
+            (0..rail.len()).map(|i| (rail[i], rail[(i + 1) % rail.len()])).collect()
+        };
+        let rail_edges: Vec<(DVec2, DVec2)> = rails.iter().flat_map(|r| closed(r)).collect();
+        let owners = rails.iter().enumerate().flat_map(|(r, rail)| (0..rail.len()).map(move |e| (r, e)));
+        Comb {
+            outline: EdgeGrid::new(&edges),
+            owners: owners.collect(),
+            rail_grid: EdgeGrid::new(&rail_edges),
+            rails,
+        }
+    }
+
+    /// The way from `a` to `b`: straight if that stays within the outer walls, else along the rails if
+    /// that is not too long, else straight.
+    pub(super) fn way(&self, a: DVec2, b: DVec2) -> Way {
+        if self.sees(a, b) {
+            return Way::default();
+        }
+        let allowed = LONGEST_DETOUR * a.distance(b);
+        let around = self.around(a, b, allowed).map(|stops| self.pulled_tight(&stops));
+        match around {
+            Some(stops) if length(&stops) <= allowed && self.stays_inside(&stops) => {
+                Way { via: stops[1..stops.len() - 1].to_vec(), crosses_outline: false }
+            }
+            _ => Way { via: Vec::new(), crosses_outline: self.outline.crosses(a, b) },
+        }
+    }
+
+    /// Whether the straight way crosses neither the outline nor, its ends left aside, a rail.
+    fn sees(&self, a: DVec2, b: DVec2) -> bool {
+        let on_rail = (b - a).normalize_or_zero() * ON_RAIL;
+        !self.outline.crosses(a, b) && !self.rail_grid.crosses(a + on_rail, b - on_rail)
+    }
+
+    fn stays_inside(&self, stops: &[DVec2]) -> bool {
+        stops.windows(2).all(|w| !self.outline.crosses(w[0], w[1]))
+    }
+
+    /// The straight way with each stretch outside a rail, from the first time it crosses it to the
+    /// last, replaced by the shorter way along it. `None` if it leaves for good, or gets much longer
+    /// than `allowed`: pulling tight seldom makes half of it.
+    fn around(&self, a: DVec2, b: DVec2, allowed: f64) -> Option<Vec<DVec2>> {
+        let crossings = self.paired_crossings(a, b)?;
+        let mut stops = vec![a];
+        let mut i = 0;
+        while i < crossings.len() {
+            let last = crossings.iter().rposition(|c| c.rail == crossings[i].rail)?;
+            stops.extend(self.along(crossings[i], crossings[last]));
+            i = last + 1;
+        }
+        stops.push(b);
+        (length(&stops) <= 2.0 * allowed).then_some(stops)
+    }
+
+    /// Where the straight way crosses rails, each an even number of times. An end that lies on a rail,
+    /// where walls begin, counts as crossing if that makes the number even. `None` if an end lies
+    /// outside.
+    fn paired_crossings(&self, a: DVec2, b: DVec2) -> Option<Vec<Crossing>> {
+        let beyond = (b - a).normalize_or_zero() * ON_RAIL;
+        let ways = [(a, b), (a - beyond, b), (a, b + beyond), (a - beyond, b + beyond)];
+        ways.into_iter().map(|(a, b)| self.crossings(a, b)).find(|found| {
+            let times = |rail: usize| found.iter().filter(|c| c.rail == rail).count();
+            found.iter().all(|c| times(c.rail).is_multiple_of(2))
+        })
+    }
+
+    fn crossings(&self, a: DVec2, b: DVec2) -> Vec<Crossing> {
+        let crossing = |(t, index): (f64, usize)| {
+            let (rail, edge) = self.owners[index];
+            Crossing { at: a.lerp(b, t), rail, edge }
+        };
+        self.rail_grid.crossings(a, b).into_iter().map(crossing).collect()
+    }
+
+    /// The shorter way along a rail, both ends included.
+    fn along(&self, from: Crossing, to: Crossing) -> Vec<DVec2> {
+        let rail = self.rails[from.rail];
+        let count = rail.len();
+        let forward =
+            |start: usize, end: usize| (1..=(end + count - start) % count).map(move |k| (start + k) % count);
+        let way = |between: Vec<usize>| -> Vec<DVec2> {
+            let middle = between.into_iter().map(|i| rail[i]);
+            std::iter::once(from.at).chain(middle).chain([to.at]).collect()
+        };
+        let ahead = way(forward(from.edge, to.edge).collect());
+        let mut behind: Vec<usize> = forward(to.edge, from.edge).collect();
+        behind.reverse();
+        let behind = way(behind);
+        if length(&ahead) <= length(&behind) { ahead } else { behind }
+    }
+
+    /// Leaves out stops that the way need not touch to stay inside.
+    fn pulled_tight(&self, stops: &[DVec2]) -> Vec<DVec2> {
+        let mut tight = vec![stops[0]];
+        let mut i = 0;
+        while i + 1 < stops.len() {
+            let sees = |j: &usize| self.sees(stops[i], stops[*j]);
+            let next = (i + 2..stops.len()).take_while(sees).last().unwrap_or(i + 1);
+            tight.push(stops[next]);
+            i = next;
+        }
+        tight
+    }
+}
+
+fn length(stops: &[DVec2]) -> f64 {
+    stops.windows(2).map(|w| w[0].distance(w[1])).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::polygon::{Join, dvec2};
+    use proptest::prelude::*;
+
+    fn rails(area: &PolygonSet) -> Vec<Vec<DVec2>> {
+        area.offset(-0.2, Join::WALL).into_contours().into_iter().map(|c| c.points).collect()
+    }
+
+    #[test]
+    fn the_way_round_the_inner_corner_of_an_l_touches_it_only() {
+        let l = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(20.0, 5.0))
+            .union(&PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(5.0, 20.0)));
+        let rails = rails(&l);
+        let comb = Comb::new(&l, rails.iter().map(Vec::as_slice).collect());
+        let way = comb.way(dvec2(4.0, 18.0), dvec2(18.0, 4.0));
+        assert!(!way.crosses_outline);
+        assert_eq!(way.via, [dvec2(4.8, 4.8)]);
+        assert_eq!(comb.way(dvec2(4.0, 4.0), dvec2(1.0, 15.0)), Way::default());
+        // From a seam on a rail, first outwards.
+        let way = comb.way(dvec2(4.8, 15.0), dvec2(18.0, 4.0));
+        assert_eq!(way, Way { via: vec![dvec2(4.8, 4.8)], crosses_outline: false });
+    }
+
+    #[test]
+    fn a_long_way_round_and_a_way_to_another_island_are_left_straight() {
+        let u = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(20.0, 30.0))
+            .difference(&PolygonSet::rectangle(dvec2(5.0, 5.0), dvec2(15.0, 31.0)))
+            .union(&PolygonSet::rectangle(dvec2(30.0, 0.0), dvec2(40.0, 5.0)));
+        let rails = rails(&u);
+        let comb = Comb::new(&u, rails.iter().map(Vec::as_slice).collect());
+        assert_eq!(comb.way(dvec2(4.0, 29.0), dvec2(16.0, 29.0)), Way::ACROSS);
+        assert_eq!(comb.way(dvec2(18.0, 2.0), dvec2(32.0, 2.0)), Way::ACROSS);
+        assert!(!comb.way(dvec2(4.0, 8.0), dvec2(16.0, 8.0)).crosses_outline);
+    }
+
+    proptest! {
+        /// Random rectangles one over the other, with holes; random ways between points inside.
+        #[test]
+        fn a_combed_way_never_meets_the_outline(
+            boxes in prop::collection::vec((0.0..30.0f64, 0.0..30.0f64, 1.0..20.0f64, 1.0..20.0f64), 1..8),
+            holes in prop::collection::vec((0.0..40.0f64, 0.0..40.0f64, 0.5..4.0f64, 0.5..4.0f64), 0..5),
+            points in prop::collection::vec((0.0..40.0f64, 0.0..40.0f64), 2..12),
+        ) {
+            let unite = |list: &[(f64, f64, f64, f64)]| {
+                let each: Vec<PolygonSet> =
+                    list.iter().map(|&(x, y, w, h)| PolygonSet::rectangle(dvec2(x, y), dvec2(x + w, y + h))).collect();
+                PolygonSet::union_all(&each)
+            };
+            let area = unite(&boxes).difference(&unite(&holes));
+            let edges: Vec<(DVec2, DVec2)> = area.contours().iter().flat_map(|c| c.edges()).collect();
+            let by_search = |a: DVec2, b: DVec2| {
+                let side = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
+                edges.iter().any(|&(c, d)| {
+                    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+                })
+            };
+            let rails = rails(&area);
+            let comb = Comb::new(&area, rails.iter().map(Vec::as_slice).collect());
+            let inside: Vec<DVec2> =
+                points.into_iter().map(|(x, y)| dvec2(x, y)).filter(|&p| area.contains(p)).collect();
+            for pair in inside.windows(2) {
+                let way = comb.way(pair[0], pair[1]);
+                let stops: Vec<DVec2> =
+                    std::iter::once(pair[0]).chain(way.via.iter().copied()).chain([pair[1]]).collect();
+                let crosses = stops.windows(2).any(|w| by_search(w[0], w[1]));
+                prop_assert!(way.crosses_outline || !crosses);
+                prop_assert!(length(&stops) <= LONGEST_DETOUR * pair[0].distance(pair[1]) + 1e-9);
+            }
+        }
+    }
+}

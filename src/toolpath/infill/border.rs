@@ -1,0 +1,216 @@
+//! The border of an area to fill: where lines cross it, how they are cut by it, and how their pieces
+//! are joined along it.
+
+use crate::polygon::grid::EdgeGrid;
+use crate::polygon::{DVec2, PolygonSet};
+
+/// A place on the border.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct BorderPlace {
+    /// Which contour.
+    contour: usize,
+    /// Way along the contour from its first point, mm.
+    at: f64,
+}
+
+/// What of a line lies inside: it begins and ends on the border.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Piece {
+    pub(super) points: Vec<DVec2>,
+    pub(super) ends: [BorderPlace; 2],
+}
+
+/// The border of an area, measured along its contours.
+pub(super) struct Border<'a> {
+    area: &'a PolygonSet,
+    /// For each contour the way from its first point to each of its points, and its whole length.
+    along: Vec<Vec<f64>>,
+}
+
+impl<'a> Border<'a> {
+    pub(super) fn of(area: &'a PolygonSet) -> Border<'a> {
+        let along = area.contours().iter().map(|contour| {
+            let mut way = vec![0.0];
+            way.extend(contour.edges().scan(0.0, |sum, (a, b)| {
+                *sum += a.distance(b);
+                Some(*sum)
+            }));
+            way
+        });
+        Border { area, along: along.collect() }
+    }
+
+    /// The place of a point on this edge.
+    pub(super) fn place(&self, contour: usize, edge: usize, p: DVec2) -> BorderPlace {
+        let start = self.area.contours()[contour].points[edge];
+        BorderPlace { contour, at: self.along[contour][edge] + start.distance(p) }
+    }
+
+    /// Cuts lines, which begin and end outside the area, into the pieces inside.
+    pub(super) fn cut(&self, lines: &[Vec<DVec2>]) -> Vec<Piece> {
+        let owners = self.area.contours().iter().enumerate();
+        let owners: Vec<(usize, usize)> =
+            owners.flat_map(|(c, contour)| (0..contour.points.len()).map(move |e| (c, e))).collect();
+        let edges: Vec<(DVec2, DVec2)> = self.area.contours().iter().flat_map(|c| c.edges()).collect();
+        let grid = EdgeGrid::new(&edges);
+        let mut pieces = Vec::new();
+        for line in lines {
+            // What is inside so far, while the line is.
+            let mut open: Option<(BorderPlace, Vec<DVec2>)> = None;
+            for ends in line.windows(2) {
+                let (a, b) = (ends[0], ends[1]);
+                for (t, edge) in grid.crossings(a, b) {
+                    let p = a.lerp(b, t);
+                    let (contour, edge) = owners[edge];
+                    let place = self.place(contour, edge, p);
+                    open = match open.take() {
+                        None => Some((place, vec![p])),
+                        Some((start, mut points)) => {
+                            points.push(p);
+                            pieces.push(Piece { points, ends: [start, place] });
+                            None
+                        }
+                    };
+                }
+                if let Some((_, points)) = &mut open {
+                    points.push(b);
+                }
+            }
+        }
+        pieces
+    }
+
+    /// Way along the contour in its direction, mm.
+    fn way(&self, from: BorderPlace, to: BorderPlace) -> f64 {
+        let ahead = to.at - from.at;
+        if ahead < 0.0 { ahead + self.length(from.contour) } else { ahead }
+    }
+
+    fn length(&self, contour: usize) -> f64 {
+        self.along[contour].last().copied().unwrap_or(0.0)
+    }
+
+    /// The contour's points between two places of it, in its direction.
+    fn points_between(&self, from: BorderPlace, to: BorderPlace) -> Vec<DVec2> {
+        let points = &self.area.contours()[from.contour].points;
+        let ways = &self.along[from.contour][..points.len()];
+        let after = |at: f64| ways.partition_point(|&w| w <= at);
+        let (first, last) = (after(from.at), ways.partition_point(|&w| w < to.at));
+        if to.at >= from.at {
+            return points.get(first..last).unwrap_or_default().to_vec();
+        }
+        [&points[first..], &points[..last]].concat()
+    }
+
+    /// Joins pieces whose ends are neighbours along the border and no farther apart than `longest`
+    /// mm to lines that follow the border between them.
+    ///
+    /// Round each contour an end is joined with the next one whenever both are free and belong to
+    /// different lines. Where parallel lines end this gives the familiar zigzag: ends are joined two
+    /// by two, on the other side one farther, because there the first pair is one line already.
+    pub(super) fn join(&self, pieces: Vec<Piece>, longest: f64) -> Vec<Vec<DVec2>> {
+        let mut joints = vec![None; 2 * pieces.len()];
+        let mut lines = Lines::single(pieces.len());
+        for ring in self.ends_by_contour(&pieces) {
+            let count = ring.len();
+            for i in 0..count {
+                let (from, to) = (ring[i], ring[(i + 1) % count]);
+                let free = |end: usize| joints[end].is_none();
+                let places = [from, to].map(|end: usize| pieces[end / 2].ends[end % 2]);
+                let near = from != to && self.way(places[0], places[1]) <= longest;
+                if near && free(from) && free(to) && lines.unite(from / 2, to / 2) {
+                    joints[from] = Some(Joint { to, forward: true });
+                    joints[to] = Some(Joint { to: from, forward: false });
+                }
+            }
+        }
+        self.follow(&pieces, &joints)
+    }
+
+    /// For each contour the ends on it in its direction; end 2 i + k is end k of piece i.
+    fn ends_by_contour(&self, pieces: &[Piece]) -> Vec<Vec<usize>> {
+        let mut rings = vec![Vec::new(); self.along.len()];
+        for (i, piece) in pieces.iter().enumerate() {
+            for (k, place) in piece.ends.iter().enumerate() {
+                rings[place.contour].push((place.at, 2 * i + k));
+            }
+        }
+        let in_order = |mut ring: Vec<(f64, usize)>| {
+            ring.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            ring.into_iter().map(|(_, end)| end).collect()
+        };
+        rings.into_iter().map(in_order).collect()
+    }
+
+    /// The points of each joined line, from a free end to the other.
+    fn follow(&self, pieces: &[Piece], joints: &[Option<Joint>]) -> Vec<Vec<DVec2>> {
+        let mut done = vec![false; pieces.len()];
+        let mut lines = Vec::new();
+        // Joined lines are never closed, so that each has a free end.
+        for start in (0..joints.len()).filter(|&end| joints[end].is_none()) {
+            if done[start / 2] {
+                continue;
+            }
+            let mut points = Vec::new();
+            let mut end = start;
+            loop {
+                let piece = &pieces[end / 2];
+                done[end / 2] = true;
+                if end.is_multiple_of(2) {
+                    points.extend(&piece.points);
+                } else {
+                    points.extend(piece.points.iter().rev());
+                }
+                let out = end ^ 1;
+                let Some(joint) = joints[out] else { break };
+                points.extend(self.joint_points(pieces, out, joint));
+                end = joint.to;
+            }
+            lines.push(points);
+        }
+        lines
+    }
+
+    fn joint_points(&self, pieces: &[Piece], from: usize, joint: Joint) -> Vec<DVec2> {
+        let place = |end: usize| pieces[end / 2].ends[end % 2];
+        if joint.forward {
+            return self.points_between(place(from), place(joint.to));
+        }
+        let mut points = self.points_between(place(joint.to), place(from));
+        points.reverse();
+        points
+    }
+}
+
+/// How the end of a piece goes on along the border.
+#[derive(Debug, Clone, Copy)]
+struct Joint {
+    /// The end of another piece.
+    to: usize,
+    /// Whether in the contour's direction.
+    forward: bool,
+}
+
+/// Which pieces hang together, as a forest: each points to another one of its line or to itself.
+struct Lines(Vec<usize>);
+
+impl Lines {
+    fn single(count: usize) -> Lines {
+        Lines((0..count).collect())
+    }
+
+    fn root(&mut self, mut piece: usize) -> usize {
+        while self.0[piece] != piece {
+            self.0[piece] = self.0[self.0[piece]];
+            piece = self.0[piece];
+        }
+        piece
+    }
+
+    /// Makes one line of two; false if they were one already.
+    fn unite(&mut self, a: usize, b: usize) -> bool {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[a] = b;
+        a != b
+    }
+}

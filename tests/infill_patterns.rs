@@ -1,0 +1,139 @@
+//! Sparse infill: density, staying inside, nothing laid twice, for every pattern.
+#![cfg(not(target_arch = "wasm32"))]
+
+use foothold::polygon::{Contour, DVec2, Join, PolygonSet, dvec2};
+use foothold::region::{Bead, Path};
+use foothold::toolpath::infill::{InfillLayer, InfillOptions, InfillPattern, fill_sparse, line_density};
+use proptest::prelude::*;
+
+const BEAD: Bead = Bead { width: 0.45, height: 0.2 };
+
+const PATTERNS: [InfillPattern; 6] = [
+    InfillPattern::Grid,
+    InfillPattern::Lines,
+    InfillPattern::Triangles,
+    InfillPattern::Gyroid,
+    InfillPattern::Honeycomb,
+    InfillPattern::Concentric,
+];
+
+fn square(side: f64) -> PolygonSet {
+    PolygonSet::rectangle(dvec2(40.0, 40.0), dvec2(40.0 + side, 40.0 + side))
+}
+
+/// Plastic of the lines as a share of the area, on the mean over places of a square on the bed (a few
+/// lines more or less meet it) and over heights that make up a period of a gyroid.
+fn density_found(side: f64, options: &InfillOptions) -> f64 {
+    let density = line_density(&[square(side)], BEAD, options);
+    let period = 2.456 * BEAD.spacing() / density;
+    let cases = 16u32;
+    let fill = |k: u32| {
+        let share = f64::from(k) / f64::from(cases);
+        let area = square(side).translated(dvec2(23.0 * share, 31.0 * (share * 5.0).fract()));
+        fill_sparse(&area, BEAD, InfillLayer { index: k, z: period * share }, density, options)
+    };
+    let length: f64 = (0..cases).flat_map(fill).map(|p| p.length()).sum();
+    length * BEAD.spacing() / (side * side * f64::from(cases))
+}
+
+#[test]
+fn density_is_true_on_squares() {
+    let mut wrong = Vec::new();
+    for (side, percents) in [(100.0, vec![5, 10, 15, 20, 40, 60]), (40.0, vec![20, 40])] {
+        for pattern in PATTERNS {
+            for &percent in &percents {
+                let density = f64::from(percent) / 100.0;
+                let options = InfillOptions { density, pattern, ..InfillOptions::default() };
+                let found = density_found(side, &options);
+                // 16 places do not quite even out a pattern of few lines.
+                let allowed = if percent == 5 || side < 100.0 { 0.04 } else { 0.03 };
+                if (found / density - 1.0).abs() > allowed {
+                    wrong.push(format!("{pattern:?} {percent} % in {side} mm: {:.2} %", 100.0 * found));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_lines_of_a_square_hang_together() {
+    for pattern in PATTERNS {
+        let options = InfillOptions { pattern, ..InfillOptions::default() };
+        let layer = InfillLayer { index: 0, z: 0.2 };
+        let count = |anchor_max: f64| {
+            let options = InfillOptions { anchor_max, ..options.clone() };
+            fill_sparse(&square(50.0), BEAD, layer, options.density, &options).len()
+        };
+        let (joined, single) = (count(20.0), count(0.0));
+        // Loops are joined already.
+        assert!(
+            pattern == InfillPattern::Concentric || joined * 5 <= single,
+            "{pattern:?}: {joined}, {single}"
+        );
+    }
+}
+
+fn shapes() -> impl Strategy<Value = PolygonSet> {
+    let boxes = prop::collection::vec((0.0..40.0f64, 0.0..40.0f64, 1.0..25.0f64, 1.0..25.0f64), 1..6);
+    let star = prop::collection::vec(4.0..20.0f64, 5..16).prop_map(|radii| {
+        let n = radii.len() as f64;
+        let point = |(i, r): (usize, &f64)| {
+            let (sin, cos) = foothold::polygon::trig::sin_cos(std::f64::consts::TAU * i as f64 / n);
+            dvec2(20.0 + r * cos, 20.0 + r * sin)
+        };
+        PolygonSet::from_contours(vec![Contour::new(radii.iter().enumerate().map(point).collect())])
+    });
+    let holes = prop::collection::vec((0.0..40.0f64, 0.0..40.0f64, 0.5..6.0f64, 0.5..6.0f64), 0..4);
+    let unite = |list: Vec<(f64, f64, f64, f64)>| {
+        let rectangle =
+            |&(x, y, w, h): &(f64, f64, f64, f64)| PolygonSet::rectangle(dvec2(x, y), dvec2(x + w, y + h));
+        PolygonSet::union_all(&list.iter().map(rectangle).collect::<Vec<_>>())
+    };
+    let outer = prop_oneof![boxes.prop_map(unite), star];
+    (outer, holes.prop_map(unite)).prop_map(|(outer, holes)| outer.difference(&holes))
+}
+
+/// Points along a path, every `step` mm.
+fn samples(path: &Path, step: f64) -> Vec<DVec2> {
+    let between = |w: &[DVec2]| {
+        let count = (w[0].distance(w[1]) / step).ceil().max(1.0) as usize;
+        let (a, b) = (w[0], w[1]);
+        (0..=count).map(move |i| a.lerp(b, i as f64 / count as f64)).collect::<Vec<_>>()
+    };
+    path.points.windows(2).flat_map(between).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(if std::env::var_os("FOOTHOLD_LONG").is_some() { 1000 } else { 100 }))]
+
+    #[test]
+    fn lines_stay_inside_their_area_and_overlap(
+        area in shapes(), pattern in 0..6usize, density in 0.05..0.7f64, z in 0.0..20.0f64, index in 0..9u32,
+    ) {
+        let options = InfillOptions { density, pattern: PATTERNS[pattern], ..InfillOptions::default() };
+        let paths = fill_sparse(&area, BEAD, InfillLayer { index, z }, density, &options);
+        let reach = options.overlap * BEAD.width - BEAD.width / 2.0;
+        let allowed = area.offset(reach + 1e-3, Join::Mitre { limit: 5.0 });
+        for p in paths.iter().flat_map(|p| samples(p, 0.5)) {
+            prop_assert!(allowed.contains(p), "{p} is outside");
+        }
+    }
+
+    #[test]
+    fn no_line_is_laid_twice(area in shapes(), pattern in 1..6usize, density in 0.05..0.4f64, z in 0.0..20.0f64) {
+        let options = InfillOptions { density, pattern: PATTERNS[pattern], ..InfillOptions::default() };
+        let paths = fill_sparse(&area, BEAD, InfillLayer { index: 0, z }, density, &options);
+        let mut edges: Vec<(i64, i64, i64, i64)> = Vec::new();
+        for w in paths.iter().flat_map(|p| p.points.windows(2)) {
+            let [a, b] = [w[0], w[1]].map(|p| ((p.x * 1e3).round() as i64, (p.y * 1e3).round() as i64));
+            if a != b {
+                edges.push((a.min(b).0, a.min(b).1, a.max(b).0, a.max(b).1));
+            }
+        }
+        let count = edges.len();
+        edges.sort_unstable();
+        edges.dedup();
+        prop_assert_eq!(edges.len(), count);
+    }
+}
