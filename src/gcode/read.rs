@@ -243,6 +243,10 @@ pub struct ReadMove {
     pub width: Option<f64>,
     /// Height stated last, mm.
     pub height: Option<f64>,
+    /// Duty of the part's fan, 0 to 255.
+    pub fan: u8,
+    /// Tool chosen last.
+    pub tool: u8,
 }
 
 impl ReadMove {
@@ -292,6 +296,8 @@ struct Machine {
     relative: bool,
     relative_e: bool,
     inches: bool,
+    fan: u8,
+    tool: u8,
 }
 
 /// What comments said last.
@@ -365,7 +371,11 @@ impl<'a> Reader<'a> {
                 self.machine.take_macro(code);
                 Some(())
             }
-            // Tool changes and macros.
+            b'T' => {
+                self.machine.take_tool(rest);
+                Some(())
+            }
+            // Other macros.
             b'A'..=b'Z' | b'_' | b'(' | b'%' | b'/' | b'@' => Some(()),
             _ => None,
         }
@@ -410,6 +420,8 @@ impl<'a> Reader<'a> {
             role: self.labels.role,
             width: self.labels.width,
             height: self.labels.height,
+            fan: self.machine.fan,
+            tool: self.machine.tool,
         });
     }
 
@@ -511,6 +523,11 @@ impl Machine {
                 let value = [b'P', b'S'].iter().find_map(|&letter| word_of(rest, letter));
                 self.acceleration = value.filter(|&a| a > 0.0).or(self.acceleration);
             }
+            Some((106, rest)) => {
+                let duty = word_of(rest, b'S').unwrap_or(255.0);
+                self.fan = duty.clamp(0.0, 255.0) as u8;
+            }
+            Some((107, _)) => self.fan = 0,
             _ => {}
         }
     }
@@ -521,6 +538,13 @@ impl Machine {
         if words.next().is_some_and(|name| name.eq_ignore_ascii_case(b"SET_VELOCITY_LIMIT")) {
             let value = words.find_map(|w| w.to_ascii_uppercase().strip_prefix(b"ACCEL=").and_then(number));
             self.acceleration = value.map(|(a, _)| a).filter(|&a| a > 0.0).or(self.acceleration);
+        }
+    }
+
+    /// A tool change; anything else that begins with T is passed over.
+    fn take_tool(&mut self, rest: &[u8]) {
+        if let Some(tool) = std::str::from_utf8(rest).ok().and_then(|it| it.trim().parse().ok()) {
+            self.tool = tool;
         }
     }
 }

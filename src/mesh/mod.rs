@@ -3,6 +3,7 @@
 //! [`load`] is the one way from the bytes of a file to a checked model; its steps are
 //! [`stl`] (parse, weld on the fly with [`weld`]), [`topology`], [`repair()`] and [`inspect`].
 
+pub mod edit;
 pub mod inspect;
 pub mod repair;
 pub mod stl;
@@ -11,6 +12,7 @@ pub mod transform;
 mod turn;
 mod weld;
 
+pub use edit::{Edit, bounds_under, edited};
 pub use inspect::{Extent, Inspection, LoadedModel, Warning, load};
 pub use repair::{Condition, Repairs, repair};
 pub use stl::{Parsed, StlError, StlReader};

@@ -52,7 +52,7 @@ impl Mesh {
 }
 
 /// The vertex moved in f64 and rounded once; never -0.0.
-fn moved(by: &DMat4, vertex: Vec3) -> Vec3 {
+pub(super) fn moved(by: &DMat4, vertex: Vec3) -> Vec3 {
     by.transform_point3(vertex.as_dvec3()).as_vec3() + Vec3::ZERO
 }
 

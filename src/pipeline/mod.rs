@@ -14,9 +14,9 @@ use std::fmt;
 
 use glam::DMat4;
 
-pub use place::{FitError, Placed, place_on_bed};
+pub use place::{FitError, Placed, arrange, place_as_told, place_on_bed};
 pub use range::{PRINT_RESOLUTION, RangeMeta, RangePlan, RangeResult, Share};
-use turn::turn_models;
+use turn::{Turned, turn_models, turn_standing};
 
 pub use report::{AdhesionReport, FilamentReport, ModelReport, Report, SupportReport, Timing, Warning};
 
@@ -134,7 +134,7 @@ pub struct Job {
 }
 
 impl Job {
-    /// Places the models on the bed and plans the layers.
+    /// Arranges the models on the bed and plans the layers.
     pub fn new(models: &[NamedModel], settings: Settings, clock: Clock) -> Result<Job, JobError> {
         let started_ms = clock();
         crate::gcode::check_templates(&settings.printer).map_err(JobError::Gcode)?;
@@ -142,6 +142,32 @@ impl Job {
         let meshes: Vec<&Mesh> = turned.meshes.iter().collect();
         let Placed { mesh, placements } = place_on_bed(&meshes, &settings.printer).map_err(JobError::Fit)?;
         let placements = placements.iter().zip(&turned.turns).map(|(place, turn)| *place * *turn).collect();
+        Job::standing(models, Placed { mesh, placements }, turned, settings, started_ms)
+    }
+
+    /// Like [`Job::new`], with the models where `placements` (file to bed coordinates, one for each
+    /// model) put them; what `orientation.mode` turns keeps its middle.
+    pub fn placed(
+        models: &[NamedModel],
+        placements: &[DMat4],
+        settings: Settings,
+        clock: Clock,
+    ) -> Result<Job, JobError> {
+        let started_ms = clock();
+        crate::gcode::check_templates(&settings.printer).map_err(JobError::Gcode)?;
+        let turned = turn_standing(models, placements, &settings)?;
+        let meshes: Vec<&Mesh> = models.iter().map(|m| &m.model.mesh).collect();
+        let placed = place_as_told(&meshes, &turned.turns, &settings.printer).map_err(JobError::Fit)?;
+        Job::standing(models, placed, turned, settings, started_ms)
+    }
+
+    fn standing(
+        models: &[NamedModel],
+        Placed { mesh, placements }: Placed,
+        turned: Turned,
+        settings: Settings,
+        started_ms: f64,
+    ) -> Result<Job, JobError> {
         let height = mesh.bounds().map_or(0.0, |b| f64::from(b.max.z));
         if height <= 0.0 {
             return Err(JobError::Empty);
@@ -370,7 +396,8 @@ impl Job {
         self.warnings.sort_by_key(|w| w.layer);
         let report = self.report(&joined);
         let file_name = self.file_name(report.time_s);
-        Ok(Finished { joined, report, file_name })
+        let layer_times_s = summaries.iter().map(|s| s.time_s).collect();
+        Ok(Finished { joined, report, file_name, layer_times_s })
     }
 
     fn report(&self, joined: &Joined) -> Report {
@@ -422,6 +449,8 @@ pub struct Finished {
     pub report: Report,
     /// A name for the file.
     pub file_name: String,
+    /// Seconds from the first to the last stop of each layer; travels between layers are in none.
+    pub layer_times_s: Vec<f64>,
 }
 
 /// Name and version of this engine.

@@ -1,9 +1,10 @@
 //! Turning models the way they print best.
 
-use glam::{DMat4, DVec3};
+use glam::{DMat3, DMat4, DVec2, DVec3};
 
-use super::{JobError, NamedModel, Warning};
-use crate::mesh::Mesh;
+use super::{FitError, JobError, NamedModel, Warning};
+use crate::mesh::transform::{centre_at, drop_to_bed};
+use crate::mesh::{LoadedModel, Mesh};
 use crate::orientation::{
     OrientationError, OrientationMode, OrientationOptions, OrientationReport, orient, rotation_for,
 };
@@ -32,6 +33,37 @@ pub(super) fn turn_models(models: &[NamedModel], settings: &Settings) -> Result<
         turned.turns.push(turn);
     }
     Ok(turned)
+}
+
+/// Turns models that stand on the bed already as `orientation.mode` asks: the turns of the result are
+/// the placements, and its meshes are left out.
+pub(super) fn turn_standing(
+    models: &[NamedModel],
+    placements: &[DMat4],
+    settings: &Settings,
+) -> Result<Turned, JobError> {
+    if settings.orientation.mode == OrientationMode::Keep {
+        let turns = placements.to_vec();
+        return Ok(Turned { meshes: Vec::new(), turns, report: None, warnings: Vec::new() });
+    }
+    let standing = models.iter().zip(placements).enumerate().map(|(index, (named, placement))| {
+        let told = |cause| JobError::Fit(FitError::Placement { index, cause });
+        let mesh = named.model.mesh.transformed(placement).map_err(told)?;
+        let model = LoadedModel { mesh, ..named.model.clone() };
+        // Directions that were compared before hold while the part stands as in its file.
+        let unturned = DMat3::from_mat4(*placement) == DMat3::IDENTITY;
+        let orientation = named.orientation.clone().filter(|_| unturned);
+        Ok(NamedModel { name: named.name.clone(), model, orientation })
+    });
+    let standing: Vec<NamedModel> = standing.collect::<Result<_, JobError>>()?;
+    let turned = turn_models(&standing, settings)?;
+    let ends = standing.iter().zip(&turned.meshes).zip(turned.turns.iter().zip(placements));
+    let turns = ends.map(|((before, after), (turn, placement))| {
+        let middle =
+            before.model.mesh.bounds().map_or(DVec3::ZERO, |b| (b.min.as_dvec3() + b.max.as_dvec3()) / 2.0);
+        drop_to_bed(after) * centre_at(after, DVec2::new(middle.x, middle.y)) * *turn * *placement
+    });
+    Ok(Turned { turns: turns.collect(), meshes: Vec::new(), ..turned })
 }
 
 /// The turn of the chosen direction; a part that no directions can be compared for stays as it lies.

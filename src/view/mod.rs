@@ -4,9 +4,11 @@
 pub mod job;
 pub mod legend;
 pub mod model;
+pub mod moves;
 pub mod scene;
 pub mod svg;
 
 pub use legend::{LegendEntry, legend};
 pub use model::{ModelPicture, Viewpoint};
+pub use moves::Moves;
 pub use scene::{Ink, Item, LineWidth, Scene};

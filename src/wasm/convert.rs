@@ -2,12 +2,13 @@
 
 use std::fmt::Display;
 
+use glam::DMat4;
 use js_sys::Error;
 use wasm_bindgen::prelude::*;
 
 use crate::mesh::StlError;
 use crate::orientation::OrientationError;
-use crate::pipeline::JobError;
+use crate::pipeline::{FitError, JobError};
 use crate::printer::CommandError;
 use crate::settings::{Settings, SettingsError};
 
@@ -67,6 +68,22 @@ pub(super) fn job_error(cause: JobError) -> Thrown {
 /// A command that the printer's state does not allow.
 pub(super) fn command_error(cause: CommandError) -> Thrown {
     thrown("CommandError", cause)
+}
+
+/// Parts that do not fit the printer.
+pub(super) fn fit_error(cause: FitError) -> Thrown {
+    thrown("FitError", cause)
+}
+
+/// Matrices from 16 numbers each, column by column.
+pub(super) fn matrices_from(numbers: &[f64]) -> Result<Vec<DMat4>, Thrown> {
+    let columns = numbers.chunks(16).map(|it| it.try_into().map(|it| DMat4::from_cols_array(&it)));
+    columns.collect::<Result<_, _>>().map_err(|_| usage_error("a matrix has 16 numbers"))
+}
+
+/// One matrix from 16 numbers, column by column.
+pub(super) fn matrix_from(numbers: &[f64]) -> Result<DMat4, Thrown> {
+    matrices_from(numbers)?.first().copied().ok_or_else(|| usage_error("a matrix has 16 numbers"))
 }
 
 /// Settings from JSON.

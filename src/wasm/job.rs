@@ -2,7 +2,7 @@
 
 use wasm_bindgen::prelude::*;
 
-use super::convert::{Thrown, internal_error, job_error, now, settings_from, usage_error};
+use super::convert::{Thrown, internal_error, job_error, matrices_from, now, settings_from, usage_error};
 use super::model::Model;
 use crate::gcode::Piece;
 use crate::pipeline::{self, Finished, NamedModel, RangeMeta, RangeResult, Share};
@@ -18,15 +18,30 @@ pub struct Job {
 #[wasm_bindgen]
 impl Job {
     /// Takes the models over, places them on the bed and plans the layers; `names` are the models'
-    /// file names without ending, `settings` is JSON. Throws a `SettingsError` or a `FitError`.
+    /// file names without ending, `settings` is JSON. `placements` holds 16 numbers for each model,
+    /// the columns of its matrix from file to bed coordinates; empty, the models are arranged.
+    /// Throws a `SettingsError` or a `FitError`.
     #[wasm_bindgen(constructor)]
-    pub fn new(models: Vec<Model>, names: Vec<String>, settings: &str) -> Result<Job, Thrown> {
+    pub fn new(
+        models: Vec<Model>,
+        names: Vec<String>,
+        settings: &str,
+        placements: &[f64],
+    ) -> Result<Job, Thrown> {
         let settings = settings_from(settings)?;
         let parse_ms: f64 = models.iter().map(|m| m.parse_ms).sum();
         let orientation = &settings.orientation;
         let named = models.into_iter().zip(names).map(|(m, name)| m.named(name, orientation));
         let named: Vec<NamedModel> = named.collect();
-        let mut inner = pipeline::Job::new(&named, settings, &now).map_err(job_error)?;
+        let placements = matrices_from(placements)?;
+        let begun = if placements.is_empty() {
+            pipeline::Job::new(&named, settings, &now)
+        } else if placements.len() == named.len() {
+            pipeline::Job::placed(&named, &placements, settings, &now)
+        } else {
+            return Err(usage_error("placements: 16 numbers for each model are needed"));
+        };
+        let mut inner = begun.map_err(job_error)?;
         inner.add_parse_time(parse_ms);
         Ok(Job { inner: Some(inner) })
     }
@@ -148,6 +163,11 @@ impl JobResult {
     /// The report, as JSON (`Report`).
     pub fn report(&self) -> Result<String, Thrown> {
         serde_json::to_string(&self.inner.report).map_err(internal_error)
+    }
+
+    /// Seconds that each layer takes, from its first to its last stop.
+    pub fn layer_times(&self) -> Vec<f64> {
+        self.inner.layer_times_s.clone()
     }
 
     /// A name for the file.

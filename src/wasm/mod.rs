@@ -7,12 +7,14 @@ mod canvas;
 mod convert;
 mod job;
 mod model;
+mod moves;
 mod printer;
 mod scene;
 
 pub use convert::Thrown;
 pub use job::{Chunk, Job, JobResult, slice_share};
-pub use model::{Model, ModelReader, SharedMesh};
+pub use model::{Model, ModelReader, SharedMesh, arrange_parts, parts_picture};
+pub use moves::{Moves, role_colours};
 pub use printer::{Outline, Printer};
 pub use scene::Scene;
 

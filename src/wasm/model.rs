@@ -2,13 +2,18 @@
 
 use wasm_bindgen::prelude::*;
 
-use super::convert::{Thrown, internal_error, model_error, now, orientation_error, settings_from};
+use glam::{DMat4, DVec3};
+
+use super::convert::{
+    Thrown, fit_error, internal_error, matrices_from, matrix_from, model_error, now, orientation_error,
+    settings_from, usage_error,
+};
 use super::scene::Scene;
-use crate::mesh::{LoadedModel, Mesh, StlReader};
+use crate::mesh::{Box3, Edit, LoadedModel, Mesh, StlReader, bounds_under, edited};
 use crate::orientation::{
     Direction, DirectionFigures, OrientationOptions, OrientationReport, candidates, choose, evaluate,
 };
-use crate::pipeline::NamedModel;
+use crate::pipeline::{self, NamedModel};
 use crate::view::{ModelPicture, Viewpoint};
 
 /// Reads an STL file from chunks of any size.
@@ -73,14 +78,23 @@ impl Model {
         self.inner.mesh.triangles.len()
     }
 
-    /// The model seen from "top", "front" or, with any other word, from the front left above.
-    pub fn picture(&self, view: &str) -> Scene {
-        let viewpoint = match view {
-            "top" => Viewpoint::Top,
-            "front" => Viewpoint::Front,
-            _ => Viewpoint::Iso,
-        };
-        Scene::of_model(ModelPicture::new(&self.inner.mesh, viewpoint))
+    /// Vertices in the file's coordinates: xyz triples, mm.
+    pub fn positions(&self) -> Vec<f32> {
+        self.inner.mesh.vertices.iter().flat_map(|v| v.to_array()).collect()
+    }
+
+    /// Triangles: three vertices each, counter-clockwise seen from outside.
+    pub fn indices(&self) -> Vec<u32> {
+        self.inner.mesh.triangles.concat()
+    }
+
+    /// Where the model stands after `edit` (JSON, `Edit`): the matrix (16 numbers, column by column)
+    /// and the box around it (lowest x y z, highest x y z, mm). Throws a `UsageError`.
+    pub fn edit(&self, placement: &[f64], edit: &str) -> Result<Vec<f64>, Thrown> {
+        let edit: Edit = serde_json::from_str(edit).map_err(usage_error)?;
+        let mesh = &self.inner.mesh;
+        let placed = edited(mesh, &matrix_from(placement)?, edit).map_err(usage_error)?;
+        Ok(matrix_and_box(mesh, &placed))
     }
 
     /// The directions to compare, x, y, z of the vector that points up for id 1, 2 and so on: the
@@ -115,6 +129,11 @@ impl Model {
         postcard::to_allocvec(&self.inner.mesh).map_err(internal_error)
     }
 
+    /// The matrix and the box of `edit`'s answer for a placement as it is.
+    pub fn stand(&self, placement: &[f64]) -> Result<Vec<f64>, Thrown> {
+        Ok(matrix_and_box(&self.inner.mesh, &matrix_from(placement)?))
+    }
+
     /// A copy of the model.
     pub fn clone_model(&self) -> Model {
         Model { inner: self.inner.clone(), parse_ms: self.parse_ms, oriented: self.oriented.clone() }
@@ -146,4 +165,39 @@ fn evaluated(mesh: &Mesh, settings: &str, id: u32, up: &[f64]) -> Result<Vec<u8>
     let up = <[f64; 3]>::try_from(up).map_err(internal_error)?;
     let figures = evaluate(mesh, &Direction { id, up }, &options, &mut |_, _| true);
     postcard::to_allocvec(&figures.map_err(orientation_error)?).map_err(internal_error)
+}
+
+fn matrix_and_box(mesh: &Mesh, placement: &DMat4) -> Vec<f64> {
+    let reach =
+        bounds_under(mesh, placement).map_or([DVec3::ZERO; 2], |b| [b.min.as_dvec3(), b.max.as_dvec3()]);
+    placement.to_cols_array().into_iter().chain(reach.iter().flat_map(|v| v.to_array())).collect()
+}
+
+/// Placements (16 numbers each) that stand the parts side by side on the bed, as they are turned and
+/// scaled by `placements`; `boxes` holds the six numbers of each part's box there. Throws a `FitError`.
+#[wasm_bindgen]
+pub fn arrange_parts(placements: &[f64], boxes: &[f64], settings: &str) -> Result<Vec<f64>, Thrown> {
+    let printer = settings_from(settings)?.printer;
+    let corner = |at: &[f64]| DVec3::new(at[0], at[1], at[2]).as_vec3();
+    let boxes: Vec<Box3> =
+        boxes.chunks_exact(6).map(|b| Box3 { min: corner(&b[..3]), max: corner(&b[3..]) }).collect();
+    let moves = pipeline::arrange(&boxes, &printer).map_err(fit_error)?;
+    let placed = matrices_from(placements)?.into_iter().zip(moves);
+    Ok(placed.flat_map(|(it, by)| (DMat4::from_translation(by) * it).to_cols_array()).collect())
+}
+
+/// The parts on the bed (`placements`: 16 numbers each) seen from "top", "front" or, with any other
+/// word, from the front left above. Throws a `UsageError`.
+#[wasm_bindgen]
+pub fn parts_picture(parts: Vec<Model>, placements: &[f64], view: &str) -> Result<Scene, Thrown> {
+    let viewpoint = match view {
+        "top" => Viewpoint::Top,
+        "front" => Viewpoint::Front,
+        _ => Viewpoint::Iso,
+    };
+    let mut all = Mesh::default();
+    for (part, placement) in parts.iter().zip(matrices_from(placements)?) {
+        all.append(&part.inner.mesh.transformed(&placement).map_err(usage_error)?);
+    }
+    Ok(Scene::of_model(ModelPicture::new(&all, viewpoint)))
 }

@@ -31,12 +31,16 @@ for (const colorScheme of ['light', 'dark'] as const) {
     await expect(layerSlider(page)).toBeVisible();
     await noFindings(page, 'preview');
     await stepTab(page, 'Prepare').click();
-    await page.getByText('All settings').click();
+    await page.getByRole('button', { name: 'All', exact: true }).click();
     for (const group of await page.locator('details.group > summary').all()) await group.click();
+    await noFindings(page, 'all settings');
+    await page.getByRole('button', { name: 'Basic', exact: true }).click();
     await page.getByLabel('Walls', { exact: true }).first().fill('4');
     await page.getByLabel('Layer height').first().fill('90');
     await page.getByLabel('Layer height').first().press('Tab');
-    await noFindings(page, 'all settings, a fault, a stale result');
+    await noFindings(page, 'a fault, a stale result');
+    await page.getByRole('button', { name: /^sample.stl/ }).click();
+    await noFindings(page, 'a part is chosen');
     const cut = info.outputPath('cut.stl');
     writeFileSync(cut, binaryStl(box(20, 20, 20), 120));
     await openFile(page, cut);
@@ -48,7 +52,7 @@ for (const colorScheme of ['light', 'dark'] as const) {
 test('the whole way by keyboard', async ({ page }) => {
   await ready(page);
   const reach = async (name: RegExp): Promise<void> => {
-    for (let presses = 0; presses < 60; presses++) {
+    for (let presses = 0; presses < 90; presses++) {
       await page.keyboard.press('Tab');
       const label = await page.evaluate(() => {
         const at = document.activeElement;

@@ -144,5 +144,11 @@ function joined(layers: number): Omit<Extract<LeadReply, { kind: 'finish' }>, 'k
     pieces.push(k + 1, 0, layerText(k).length);
   }
   pieces.push(0, 2, 3);
-  return { report: '{}', fileName: 'fake.gcode', glue: encoder.encode('<|>'), pieces: Uint32Array.from(pieces) };
+  return {
+    report: '{}',
+    fileName: 'fake.gcode',
+    glue: encoder.encode('<|>'),
+    pieces: Uint32Array.from(pieces),
+    times: new Float64Array(layers),
+  };
 }

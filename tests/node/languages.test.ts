@@ -1,8 +1,12 @@
 // The tables of words: the same words in each language, and which one a visitor gets.
 import { expect, test } from 'vitest';
+import schema from '../../schema/settings.schema.json';
 import { en } from '../../www/src/i18n/en.ts';
+import { named } from '../../www/src/i18n/settings.ts';
 import { closest, languages, tables } from '../../www/src/i18n/text.ts';
 import { kept } from '../../www/src/preferences.ts';
+import { shownAt } from '../../www/src/settings/depths.ts';
+import { groupsOf, type Schema } from '../../www/src/settings/fields.ts';
 
 /** Dotted paths of all texts in a table, with what they say. */
 function texts(table: object, path = ''): [string, unknown][] {
@@ -13,7 +17,7 @@ function texts(table: object, path = ''): [string, unknown][] {
 }
 
 /** Texts that may be the same in another language: names, and words that it shares with English. */
-const shared = /^\.(title|format\.|settings\.unit)/;
+const shared = /^\.(title|format\.|settings\.unit|view\.units|view\.inSpace)/;
 
 test.each(languages.filter((it) => it !== 'en'))('%s says everything, in its own words', (language) => {
   const english = new Map(texts(en));
@@ -52,3 +56,20 @@ test('what was kept wins over what the browser asks for, and nonsense is passed 
     expect(kept(text, ['en'])).toEqual({ language: 'en', theme: 'system' });
   }
 });
+
+test.each(Object.entries(named))(
+  '%s names the basic settings, and only settings that there are',
+  (_, { labels, groups, values }) => {
+    const all = groupsOf(schema as Schema);
+    const fields = all.flatMap((group) => group.fields);
+    const choices = fields.flatMap((field) => (field.kind === 'choice' ? field.choices.map(({ value }) => value) : []));
+    const unknown = [
+      ...Object.keys(labels).filter((path) => !fields.some((field) => field.path === path)),
+      ...Object.keys(groups).filter((path) => !all.some((group) => group.path === path)),
+    ];
+    expect(unknown).toEqual([]);
+    const basic = shownAt('basic', all).flatMap((group) => group.fields.map((field) => field.path));
+    expect(basic.filter((path) => !(path in labels))).toEqual([]);
+    expect(choices.some((value) => value in values)).toBe(true);
+  },
+);

@@ -1,8 +1,10 @@
 // Creates the page's parts and connects them.
 import { speak } from './i18n/text.ts';
+import { loadChanges, loadModels, saveChanges, saveModels } from './keep.ts';
 import { loadPreferences, savePreferences } from './preferences.ts';
 import { PrintSession } from './printer/print-session.ts';
 import { problemOf, Session } from './session.ts';
+import { allFields } from './settings/room.ts';
 import { Pool } from './slicer/pool.ts';
 import { compileEngine, pageLanes, viewLane, workerCount } from './slicer/threads.ts';
 import { type State, Store } from './state.ts';
@@ -13,6 +15,7 @@ const store = new Store();
 const app = document.querySelector('foothold-app');
 if (!(app instanceof FootholdApp)) throw new Error('the page has no <foothold-app>');
 dress(store);
+store.update({ changes: loadChanges(allFields), history: store.state.history });
 app.store = store;
 store.listen((state) => {
   app.state = state;
@@ -26,8 +29,9 @@ try {
   const pool = new Pool(pageLanes(module), workerCount(navigator.hardwareConcurrency));
   app.session = new Session(store, pool);
   app.painter = painter(pool, viewLane(module));
-  store.update({ engine: 'ready' });
-  await app.session.start(location.href);
+  store.update({ engine: 'ready', roles: await app.painter.roles() });
+  await app.session.start(location.href, await loadModels());
+  keepWork(store);
 } catch (error) {
   store.update({ engine: problemOf(error) });
 }
@@ -49,6 +53,19 @@ function prepareToPrint(store: Store, compiled: Promise<WebAssembly.Module>): vo
   const printing = new PrintSession(print, compiled);
   if (app instanceof FootholdApp) app.printing = printing;
   void printing.start();
+}
+
+/** Keeps settings, models and parts for the next visit whenever they change. */
+function keepWork(store: Store): void {
+  let before: State = store.state;
+  store.listen((state) => {
+    if (state.changes !== before.changes) saveChanges(state.changes);
+    const { model, parts, arranged } = state;
+    if (model.kind === 'open' && (model !== before.model || parts !== before.parts)) {
+      void saveModels({ sources: model.models.map(({ source }) => source), parts, arranged });
+    }
+    before = state;
+  });
 }
 
 /** Gives the page its language and colours, as kept or as the browser asks for, and keeps later choices. */

@@ -45,11 +45,36 @@ export interface Evaluation {
   readonly up: Up;
 }
 
+/** Which models stand on the bed: positions in the list of open models, each as often as it is there. */
+export interface Standing {
+  readonly models: readonly number[];
+  /** 16 numbers for each, the columns of its matrix from file to bed coordinates; empty: the engine arranges them. */
+  readonly placements: readonly number[];
+}
+
+/** A change to where a part stands; the engine's `Edit`. */
+export type Edit =
+  | { readonly kind: 'drop' }
+  | { readonly kind: 'turn'; readonly axis: number; readonly angle_deg: number }
+  | { readonly kind: 'scale'; readonly factors: readonly [number, number, number] }
+  | { readonly kind: 'mirror'; readonly axis: number }
+  | { readonly kind: 'lay_flat'; readonly triangle: number };
+
 /** Requests to the lead lane, which holds the models and the job. */
 export type LeadRequest =
-  | { readonly kind: 'open'; readonly sources: readonly ModelSource[] }
+  /** Reads models; the first `keep` are open already. */
+  | { readonly kind: 'open'; readonly sources: readonly ModelSource[]; readonly keep: number }
+  | { readonly kind: 'shape'; readonly model: number }
+  /** Without `edit` the placement stays as it is. */
+  | { readonly kind: 'edit'; readonly model: number; readonly matrix: readonly number[]; readonly edit?: Edit }
+  | {
+      readonly kind: 'arrange';
+      readonly placements: readonly number[];
+      readonly boxes: readonly number[];
+      readonly settings: string;
+    }
   | { readonly kind: 'settings'; readonly files: readonly string[]; readonly sets: readonly string[] }
-  | { readonly kind: 'begin'; readonly settings: string }
+  | { readonly kind: 'begin'; readonly settings: string; readonly standing?: Standing | undefined }
   | { readonly kind: 'prepare' }
   | { readonly kind: 'share'; readonly range: Range }
   | { readonly kind: 'slice'; readonly range: Range }
@@ -69,11 +94,15 @@ export type LeadRequest =
     }
   | { readonly kind: 'mesh'; readonly model: number }
   | { readonly kind: 'compare' }
-  | { readonly kind: 'picture'; readonly view: PictureView }
+  | { readonly kind: 'picture'; readonly view: PictureView; readonly standing?: Standing | undefined }
   | { readonly kind: 'paint'; readonly camera: CameraNumbers; readonly theme: Theme };
 
 export type LeadReply =
   | { readonly kind: 'open'; readonly inspections: readonly string[]; readonly parse_ms: number }
+  | ({ readonly kind: 'shape' } & Shape)
+  /** The matrix, 16 numbers, and the box around the part: lowest x y z, highest x y z, mm. */
+  | { readonly kind: 'edit'; readonly stand: Float64Array }
+  | { readonly kind: 'arrange'; readonly placements: Float64Array }
   | { readonly kind: 'settings'; readonly settings: string }
   /** Layers of the part alone; what is laid below it adds to them when the job is prepared. */
   | { readonly kind: 'begin'; readonly partLayers: number }
@@ -93,6 +122,14 @@ export type LeadReply =
   | { readonly kind: 'picture'; readonly bounds: Bounds }
   | { readonly kind: 'paint'; readonly bitmap: ImageBitmap };
 
+/** A model's triangles in its file's coordinates. */
+export interface Shape {
+  /** xyz triples, mm. */
+  readonly positions: Float32Array<ArrayBuffer>;
+  /** Three vertices a triangle. */
+  readonly indices: Uint32Array<ArrayBuffer>;
+}
+
 /** The G-code of some layers; layer i of them is `text[offsets[i]..offsets[i + 1]]`. */
 export interface SlicedRange {
   readonly text: Uint8Array<ArrayBuffer>;
@@ -108,6 +145,8 @@ export interface Joined {
   readonly fileName: string;
   readonly glue: Uint8Array<ArrayBuffer>;
   readonly pieces: Uint32Array;
+  /** Seconds that each layer takes. */
+  readonly times: Float64Array;
 }
 
 /** Requests to a helper lane, which keeps nothing between them but the mesh whose directions it evaluates. */
@@ -120,15 +159,32 @@ export type HelperReply =
   | { readonly kind: 'mesh' }
   | { readonly kind: 'evaluate'; readonly figures: Uint8Array };
 
+/** The moves of some layers in the order of the text; the arrays are described at the engine's `Moves`. */
+export interface Moves {
+  readonly ends: Float32Array;
+  readonly sizes: Float32Array;
+  readonly roles: Uint8Array;
+  readonly speeds: Float32Array;
+  readonly flows: Float32Array;
+  readonly fans: Uint8Array;
+  readonly tools: Uint8Array;
+  readonly layers: Uint32Array;
+}
+
 /** Requests to the view lane, which owns the canvas of the layer view. */
 export type ViewRequest =
   | { readonly kind: 'canvas'; readonly canvas: OffscreenCanvas }
+  | { readonly kind: 'roles' }
   | { readonly kind: 'layer'; readonly text: Uint8Array; readonly settings: string }
+  | { readonly kind: 'moves'; readonly text: Uint8Array; readonly settings: string }
   | { readonly kind: 'paint'; readonly camera: CameraNumbers; readonly theme: Theme };
 
 export type ViewReply =
   | { readonly kind: 'canvas' }
+  /** All roles as the moves count them, JSON: a list of {role, color}. */
+  | { readonly kind: 'roles'; readonly roles: string }
   | { readonly kind: 'layer'; readonly bounds: Bounds; readonly legend: readonly LegendEntry[] }
+  | ({ readonly kind: 'moves' } & Moves)
   | { readonly kind: 'paint' };
 
 export interface Tagged {

@@ -1,43 +1,70 @@
-// The flow of work, as plain functions over the state: open, slice, cancel, show, download.
+// The flow of work, as plain functions over the state: open, place, slice, cancel, show, download.
 import type { Report } from './generated/report.ts';
+import { planOf, redone, undone } from './history.ts';
 import { t } from './i18n/text.ts';
-import type { ModelSource } from './messages.ts';
-import { asSettings } from './settings/changes.ts';
+import type { Kept } from './keep.ts';
+import type { Edit, ModelSource } from './messages.ts';
+import { asStanding, atFreeSpot, freeId, movedTo, type Part, standing, UNMOVED } from './parts.ts';
+import { asChanges, asSettings } from './settings/changes.ts';
+import { allFields, roomOf } from './settings/room.ts';
 import { EngineError, isCancel } from './slicer/errors.ts';
 import { partsOf } from './slicer/gcode.ts';
-import type { Pool } from './slicer/pool.ts';
+import type { Opened, Pool } from './slicer/pool.ts';
 import { fetched, lastPart, namedModel } from './source.ts';
-import type { ModelFacts, Problem, Remark, State, Step, Store } from './state.ts';
+import {
+  type ModelFacts,
+  noPlan,
+  type OpenModel,
+  type Problem,
+  type Remark,
+  type State,
+  type Step,
+  type Store,
+} from './state.ts';
+import { canDrawSpace } from './view/webgl.ts';
 
 export class Session {
   readonly #store: Store;
   readonly #pool: Pool;
   #job: AbortController | undefined;
+  /** Changes of the parts, one after another: each looks at what the one before left. */
+  #edits: Promise<unknown> = Promise.resolve();
 
   constructor(store: Store, pool: Pool) {
     this.#store = store;
     this.#pool = pool;
+    let room = roomOf(store.state.changes);
+    store.listen(({ changes }) => {
+      const now = roomOf(changes);
+      if (String(now) === String(room)) return;
+      room = now;
+      if (store.state.arranged) void this.arrange();
+    });
   }
 
-  /** Opens what the page's address names, or the sample; the sample is sliced at once. */
-  async start(address: string): Promise<void> {
+  /** Opens what the page's address names, or what was open last, or the sample; the sample is sliced at once. */
+  async start(address: string, kept: Kept | undefined): Promise<void> {
     try {
       const named = namedModel(address);
-      if (named !== undefined) return await this.open(await fetched(named, lastPart(named)));
+      if (named !== undefined) return await this.open([await fetched(named, lastPart(named))]);
       // The visitor may be at another step by now, and stays there.
-      await this.#open(await fetched('sample.stl', 'sample.stl'), this.#store.state.step);
+      if (kept !== undefined) await this.#open(kept.sources, this.#store.state.step, kept);
+      if (this.#store.state.model.kind === 'open') return;
+      await this.#open([await fetched('sample.stl', 'sample.stl')], this.#store.state.step);
       await this.#slice(() => this.#store.state.step);
     } catch (error) {
       this.#store.update({ model: { kind: 'failed', problem: problemOf(error) } });
     }
   }
 
-  /** Opens a model; a job under way is cancelled. */
-  open(source: ModelSource): Promise<void> {
-    return this.#open(source, 'prepare');
+  /** Opens models instead of those that were open; a job under way is cancelled. */
+  open(sources: readonly ModelSource[]): Promise<void> {
+    return this.#open(sources, 'prepare');
   }
 
-  async #open(source: ModelSource, step: Step): Promise<void> {
+  async #open(sources: readonly ModelSource[], step: Step, kept?: Kept): Promise<void> {
+    const [source] = sources;
+    if (source === undefined) return;
     this.#job?.abort();
     this.#job = undefined;
     this.#store.update({
@@ -45,20 +72,101 @@ export class Session {
       job: { kind: 'idle' },
       result: undefined,
       step,
+      ...noPlan,
     });
     const isCurrent = (): boolean => {
       const { model } = this.#store.state;
       return model.kind === 'reading' && model.source === source;
     };
     try {
-      const { inspections } = await this.#pool.open([source]);
-      if (isCurrent()) this.#store.update({ model: { kind: 'open', source, facts: factsOf(inspections[0] ?? '{}') } });
+      const models = openModels(sources, await this.#pool.open(sources));
+      const parts = kept?.parts ?? (await this.#arranged(await this.#standing(models.map((_, model) => model))));
+      const [first] = models;
+      if (!isCurrent() || first === undefined) return;
+      this.#store.update({
+        model: { kind: 'open', ...first, models },
+        ...noPlan,
+        parts,
+        arranged: kept?.arranged ?? true,
+      });
     } catch (error) {
       if (isCurrent()) this.#store.update({ model: { kind: 'failed', problem: problemOf(error) } });
     }
   }
 
-  /** Slices the open model with the settings of the form, and goes on to Preview. */
+  /** Opens models beside those that are open. */
+  async add(sources: readonly ModelSource[]): Promise<void> {
+    if (this.#store.state.model.kind !== 'open') return this.open(sources);
+    await this.#edit(async ({ model, parts, arranged, changes }) => {
+      if (model.kind !== 'open') return {};
+      const opened = await this.#pool.add(sources);
+      const models = openModels([...model.models.map((it) => it.source), ...sources], opened);
+      const added = await this.#standing(
+        sources.map((_, k) => model.models.length + k),
+        freeId(parts),
+      );
+      const all = arranged ? await this.#arranged([...parts, ...added]) : withAdded(parts, added, roomOf(changes));
+      return { model: { ...model, models }, parts: all, selected: added[0]?.id, step: 'prepare' };
+    });
+  }
+
+  select(selected: number | undefined): void {
+    if (selected !== this.#store.state.selected) this.#store.update({ selected });
+  }
+
+  /** Turns, scales, mirrors, lays flat or drops a part. */
+  async change(id: number, edit: Edit): Promise<void> {
+    await this.#edit(async ({ parts }) => {
+      const part = parts.find((it) => it.id === id);
+      if (part === undefined) return {};
+      const stand = await this.#pool.edit(part.model, part.matrix, edit);
+      return { parts: replaced(parts, standing(id, part.model, stand)), arranged: false };
+    });
+  }
+
+  /** Moves a part's middle to a point of the bed, mm. */
+  async moveTo(id: number, x: number, y: number): Promise<void> {
+    await this.#edit(async ({ parts }) => {
+      const part = parts.find((it) => it.id === id);
+      return part === undefined ? {} : { parts: replaced(parts, movedTo(part, x, y)), arranged: false };
+    });
+  }
+
+  async duplicate(id: number): Promise<void> {
+    await this.#edit(async ({ parts, arranged, changes }) => {
+      const part = parts.find((it) => it.id === id);
+      if (part === undefined) return {};
+      const copy = { ...part, id: freeId(parts) };
+      const all = arranged ? await this.#arranged([...parts, copy]) : withAdded(parts, [copy], roomOf(changes));
+      return { parts: all, selected: copy.id };
+    });
+  }
+
+  async remove(id: number): Promise<void> {
+    await this.#edit(async ({ parts, arranged }) => {
+      const left = parts.filter((it) => it.id !== id);
+      return { parts: arranged ? await this.#arranged(left) : left, selected: left.at(-1)?.id };
+    });
+  }
+
+  /** Stands all parts side by side. */
+  async arrange(): Promise<void> {
+    await this.#edit(async ({ parts }) => ({ parts: await this.#arranged(parts) }));
+  }
+
+  undo(): void {
+    const { state } = this.#store;
+    const change = undone(state.history, planOf(state));
+    if (change !== undefined) this.#store.update({ ...change, trouble: undefined });
+  }
+
+  redo(): void {
+    const { state } = this.#store;
+    const change = redone(state.history, planOf(state));
+    if (change !== undefined) this.#store.update({ ...change, trouble: undefined });
+  }
+
+  /** Slices the parts with the settings of the form, and goes on to Preview. */
   slice(): Promise<void> {
     return this.#slice(() => 'preview');
   }
@@ -78,9 +186,22 @@ export class Session {
     } catch (error) {
       update({ job: isCancel(error) ? { kind: 'cancelled' } : { kind: 'failed', problem: problemOf(error) } });
     } finally {
-      // After a cancel or a crash a new lead reads the model again while nobody waits for it.
+      // After a cancel or a crash a new lead reads the models again while nobody waits for it.
       this.#pool.ready().catch(() => undefined);
     }
+  }
+
+  /** Takes settings from a file instead of those of the form; the engine says what is wrong with them. */
+  async importSettings(file: Blob): Promise<void> {
+    await this.#edit(async () => {
+      const resolved = await this.#pool.settings([await file.text()], []);
+      return { changes: asChanges(JSON.parse(resolved), allFields) };
+    });
+  }
+
+  exportSettings(): void {
+    const text = `${JSON.stringify(JSON.parse(asSettings(this.#store.state.changes)), null, 2)}\n`;
+    saveFile(new Blob([text], { type: 'application/json' }), 'foothold-settings.json');
   }
 
   cancel(): void {
@@ -91,12 +212,7 @@ export class Session {
   download(): void {
     const { result } = this.#store.state;
     if (result === undefined) return;
-    const address = URL.createObjectURL(new Blob(partsOf(result.gcode), { type: 'text/x.gcode' }));
-    const link = document.createElement('a');
-    link.href = address;
-    link.download = result.gcode.joined.fileName;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(address), 60_000);
+    saveFile(new Blob(partsOf(result.gcode), { type: 'text/x.gcode' }), result.gcode.joined.fileName);
   }
 
   showLayer(layer: number): void {
@@ -110,11 +226,58 @@ export class Session {
     signal: AbortSignal,
     progress: NonNullable<Parameters<Pool['slice']>[0]['progress']>,
   ): Promise<Partial<State>> {
+    const { changes, parts, arranged } = this.#store.state;
+    const settings = await this.#pool.settings([asSettings(changes)], []);
+    const gcode = await this.#pool.slice({ settings, standing: asStanding(parts, arranged), signal, progress });
+    const report = JSON.parse(gcode.joined.report) as Report;
+    // In space all layers are seen at once; flat the first is the one to look at.
+    const layer = canDrawSpace() && !this.#store.state.flat ? gcode.layers.length - 1 : 0;
+    return { job: { kind: 'done' }, result: { gcode, report, settings, changes, parts }, layer };
+  }
+
+  /** Runs a change of the parts after those before it; what it cannot do is said beside the parts. */
+  #edit(change: (state: State) => Promise<Partial<State>>): Promise<void> {
+    const edit = async (): Promise<void> => {
+      try {
+        this.#store.update({ ...(await change(this.#store.state)), trouble: undefined });
+      } catch (error) {
+        this.#store.update({ trouble: problemOf(error) });
+      }
+    };
+    const done = this.#edits.then(edit);
+    this.#edits = done;
+    return done;
+  }
+
+  /** Models as they are in their files, as parts numbered from `id`. */
+  async #standing(models: readonly number[], id = 1): Promise<Part[]> {
+    const stands = await Promise.all(models.map((model) => this.#pool.edit(model, UNMOVED)));
+    return stands.map((stand, k) => standing(id + k, models[k] ?? 0, stand));
+  }
+
+  /** The parts side by side in the middle of the bed; each in its middle when there is no room for all. */
+  async #arranged(parts: readonly Part[]): Promise<readonly Part[]> {
     const { changes } = this.#store.state;
     const settings = await this.#pool.settings([asSettings(changes)], []);
-    const gcode = await this.#pool.slice({ settings, signal, progress });
-    const report = JSON.parse(gcode.joined.report) as Report;
-    return { job: { kind: 'done' }, result: { gcode, report, settings, changes }, layer: 0 };
+    const boxes = parts.flatMap(({ box }) => box);
+    const matrices = await this.#pool
+      .arrange(
+        parts.flatMap(({ matrix }) => matrix),
+        boxes,
+        settings,
+      )
+      .catch((error: unknown) => {
+        if (error instanceof EngineError && error.name === 'FitError') return undefined;
+        throw error;
+      });
+    if (matrices === undefined) return withAdded([], await this.#dropped(parts), roomOf(changes));
+    const stands = parts.map(({ model }, k) => this.#pool.edit(model, [...matrices.subarray(16 * k, 16 * k + 16)]));
+    return (await Promise.all(stands)).map((stand, k) => ({ ...standing(0, 0, stand), ...named(parts[k]) }));
+  }
+
+  async #dropped(parts: readonly Part[]): Promise<Part[]> {
+    const stands = parts.map(({ model, matrix }) => this.#pool.edit(model, matrix, { kind: 'drop' }));
+    return (await Promise.all(stands)).map((stand, k) => ({ ...standing(0, 0, stand), ...named(parts[k]) }));
   }
 }
 
@@ -124,6 +287,35 @@ export function problemOf(error: unknown): Problem {
     name: known ? (error as Error).name : 'InternalError',
     message: error instanceof Error ? error.message : String(error),
   };
+}
+
+/** Hands a file to the browser. */
+export function saveFile(content: Blob, name: string): void {
+  const address = URL.createObjectURL(content);
+  const link = document.createElement('a');
+  link.href = address;
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), 60_000);
+}
+
+function named(part: Part | undefined): Pick<Part, 'id' | 'model'> {
+  return { id: part?.id ?? 0, model: part?.model ?? 0 };
+}
+
+function replaced(parts: readonly Part[], part: Part): readonly Part[] {
+  return parts.map((it) => (it.id === part.id ? part : it));
+}
+
+/** Parts added to others, each at a free spot. */
+function withAdded(parts: readonly Part[], added: readonly Part[], room: ReturnType<typeof roomOf>): readonly Part[] {
+  const all = [...parts];
+  for (const part of added) all.push(atFreeSpot(part, all, room));
+  return all;
+}
+
+function openModels(sources: readonly ModelSource[], { inspections }: Opened): readonly OpenModel[] {
+  return sources.map((source, k) => ({ source, facts: factsOf(inspections[k] ?? '{}') }));
 }
 
 /** What the page shows of the engine's inspection. */

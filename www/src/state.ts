@@ -1,12 +1,15 @@
 // What the page knows. Elements draw it and send events; main.ts alone changes it.
 import type { Report } from './generated/report.ts';
+import { type History, noHistory, planOf, recorded, samePlan } from './history.ts';
 import type { Language } from './i18n/text.ts';
 import type { LegendEntry, ModelSource, PictureView } from './messages.ts';
+import type { Part } from './parts.ts';
 import type { ThemeChoice } from './preferences.ts';
 import { type PrintState, printInitial } from './printer/print-state.ts';
 import type { Changes } from './settings/changes.ts';
 import type { Gcode } from './slicer/gcode.ts';
 import type { Progress } from './slicer/pool.ts';
+import type { ColourBy, RoleColour } from './view/colours.ts';
 
 /** An error in words; `name` chooses the title and the advice. */
 export interface Problem {
@@ -26,12 +29,21 @@ export interface Remark {
   readonly code: string;
   readonly message: string;
   readonly layer?: number | null;
+  /** Where on the bed, mm. */
+  readonly at?: readonly number[] | null;
+}
+
+/** An open model. */
+export interface OpenModel {
+  readonly source: ModelSource;
+  readonly facts: ModelFacts;
 }
 
 export type ModelState =
   | { readonly kind: 'none' }
   | { readonly kind: 'reading'; readonly source: ModelSource }
-  | { readonly kind: 'open'; readonly source: ModelSource; readonly facts: ModelFacts }
+  /** All models that were opened; `source` and `facts` are those of the first. */
+  | ({ readonly kind: 'open'; readonly models: readonly OpenModel[] } & OpenModel)
   | { readonly kind: 'failed'; readonly problem: Problem };
 
 export interface Result {
@@ -41,6 +53,8 @@ export interface Result {
   readonly settings: string;
   /** The changes it was made with; when they differ from the form's, the result is stale. */
   readonly changes: Changes;
+  /** The parts it was made of. */
+  readonly parts: readonly Part[];
 }
 
 export type JobState =
@@ -59,12 +73,31 @@ export interface State {
   readonly job: JobState;
   readonly result: Result | undefined;
   readonly changes: Changes;
+  readonly parts: readonly Part[];
+  /** The parts stand as the engine arranges them; nobody has moved one. */
+  readonly arranged: boolean;
+  /** The part chosen, by its number. */
+  readonly selected: number | undefined;
+  readonly history: History;
+  /** Why the last change of the parts did not come about. */
+  readonly trouble: Problem | undefined;
   readonly step: Step;
   readonly side: PictureView;
   /** The layer shown, from 0. */
   readonly layer: number;
   readonly legend: readonly LegendEntry[];
   readonly print: PrintState;
+  /** The preview shows one layer flat, not all in space. */
+  readonly flat: boolean;
+  readonly colourBy: ColourBy;
+  /** Roles that the preview in space leaves out. */
+  readonly hidden: ReadonlySet<string>;
+  /** Low and high end of the colours, where they mean a quantity. */
+  readonly range: readonly [number, number] | undefined;
+  /** Colours of all roles, from the engine. */
+  readonly roles: readonly RoleColour[];
+  /** The next click on a face lays it on the bed. */
+  readonly laying: boolean;
   readonly language: Language;
   readonly theme: ThemeChoice;
   /** Whether the page is dark now, by choice or as the system is. */
@@ -77,15 +110,35 @@ export const initial: State = {
   job: { kind: 'idle' },
   result: undefined,
   changes: {},
+  parts: [],
+  arranged: true,
+  selected: undefined,
+  history: noHistory,
+  trouble: undefined,
   step: 'prepare',
   side: 'iso',
   layer: 0,
   legend: [],
   print: printInitial,
+  flat: false,
+  colourBy: 'role',
+  hidden: new Set(['travel']),
+  range: undefined,
+  roles: [],
+  laying: false,
   language: 'en',
   theme: 'system',
   dark: false,
 };
+
+/** What a newly opened model begins with: settings stay, and nothing can be undone. */
+export const noPlan = {
+  parts: [],
+  arranged: true,
+  selected: undefined,
+  history: noHistory,
+  trouble: undefined,
+} as const satisfies Partial<State>;
 
 /** Holds the state and tells listeners of each change, once per frame's worth of changes. */
 export class Store {
@@ -97,8 +150,12 @@ export class Store {
     return this.#state;
   }
 
+  /** A change of parts or settings can be undone, unless it brings a history of its own. */
   update(change: Partial<State>): void {
-    this.#state = { ...this.#state, ...change };
+    const before = this.#state;
+    const after = { ...before, ...change };
+    const isEdit = change.history === undefined && !samePlan(before, after);
+    this.#state = isEdit ? { ...after, history: recorded(before.history, planOf(before)) } : after;
     if (this.#told) return;
     this.#told = true;
     queueMicrotask(() => {
@@ -114,9 +171,12 @@ export class Store {
 }
 
 /** Whether the form says something else than the result was made with. */
-export function isStale({ result, changes }: State): boolean {
-  return result !== undefined && JSON.stringify(result.changes) !== JSON.stringify(changes);
+export function isStale({ result, changes, parts }: State): boolean {
+  if (result === undefined) return false;
+  return !same(result.changes, changes) || !same(result.parts, parts);
 }
+
+const same = (a: unknown, b: unknown): boolean => a === b || JSON.stringify(a) === JSON.stringify(b);
 
 /** How far a job is, 0 to 1; the layers are nearly all of it. */
 export function shareOf({ stage, done, total }: Progress): number {

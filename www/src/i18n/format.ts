@@ -39,5 +39,5 @@ export function formats(locale: string, [h, min, s]: TimeUnits): Formats {
 
 /** Units as a person writes them; the others stay as the engine names them. */
 export function unitSign(name: string): string {
-  return { 'degrees C': '°C', 'mm/s2': 'mm/s²', 'mm3/s': 'mm³/s', 'g/cm3': 'g/cm³' }[name] ?? name;
+  return { degrees: '°', 'degrees C': '°C', 'mm/s2': 'mm/s²', 'mm3/s': 'mm³/s', 'g/cm3': 'g/cm³' }[name] ?? name;
 }

@@ -12,12 +12,18 @@ export const languages = Object.keys(tables) as readonly Language[];
 
 export let t: Words = en;
 
+let language: Language = 'en';
+
+/** The language that `t` speaks. */
+export const spoken = (): Language => language;
+
 const listeners = new Set<() => void>();
 
 /** Changes the language; whoever listens draws anew. */
-export function speak(language: Language): void {
-  t = tables[language];
-  document.documentElement.lang = language;
+export function speak(chosen: Language): void {
+  language = chosen;
+  t = tables[chosen];
+  document.documentElement.lang = chosen;
   for (const listener of listeners) listener();
 }
 

@@ -24,6 +24,16 @@ export function asSettings(changes: Changes): string {
   return JSON.stringify(root);
 }
 
+/** The changes that a nested settings file makes; what it says of settings that are no fields is passed over. */
+export function asChanges(settings: unknown, fields: readonly Field[]): Changes {
+  return fields.reduce<Changes>((changes, field) => {
+    const value = field.path.split('.').reduce<unknown>((at, name) => {
+      return typeof at === 'object' && at !== null ? (at as Record<string, unknown>)[name] : undefined;
+    }, settings);
+    return value === undefined || value === null ? changes : withChange(changes, field, value as Value);
+  }, {});
+}
+
 /** What an input's text means for its field; undefined when it means nothing. */
 export function parse(field: Field, text: string): Value | undefined {
   switch (field.kind) {

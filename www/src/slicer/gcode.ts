@@ -23,11 +23,16 @@ const RELATIVE = new TextEncoder().encode('M83\n');
 
 /** A layer to be read alone: from the joining text in front of it, which moves the head there, to its end. */
 export function layerOf(gcode: Gcode, layer: number): Uint8Array {
+  return layersOf(gcode, layer, layer + 1);
+}
+
+/** The layers from `first` to `last`, without `last`, to be read alone. */
+export function layersOf(gcode: Gcode, first: number, last: number): Uint8Array {
   const { pieces } = gcode.joined;
   const sources = pieces.filter((_, k) => k % 3 === 0);
-  const first = sources.indexOf(layer + 1);
-  const before = first > 0 && sources[first - 1] === 0 ? first - 1 : first;
-  const parts = partsOf(gcode).slice(before, sources.lastIndexOf(layer + 1) + 1);
+  const start = sources.indexOf(first + 1);
+  const before = start > 0 && sources[start - 1] === 0 ? start - 1 : start;
+  const parts = partsOf(gcode).slice(before, sources.lastIndexOf(last) + 1);
   return joined([RELATIVE, ...parts]);
 }
 

@@ -3,10 +3,14 @@ import type { Chunk, Job, Model, Scene } from '../generated/engine/foothold.js';
 import type {
   Bounds,
   CameraNumbers,
+  Edit,
+  Joined,
   LeadReply,
   LeadRequest,
   ModelSource,
+  Shape,
   SlicedRange,
+  Standing,
   Theme,
   Up,
 } from '../messages.ts';
@@ -32,11 +36,17 @@ export class Lead {
   async handle(request: LeadRequest): Promise<LeadReply> {
     switch (request.kind) {
       case 'open':
-        return { kind: 'open', ...(await this.#open(request.sources)) };
+        return { kind: 'open', ...(await this.#open(request.sources, request.keep)) };
+      case 'shape':
+        return { kind: 'shape', ...shapeOf(this.#model(request.model)) };
+      case 'edit':
+        return { kind: 'edit', stand: this.#edit(request.model, request.matrix, request.edit) };
+      case 'arrange':
+        return { kind: 'arrange', placements: this.#arrange(request) };
       case 'settings':
         return { kind: 'settings', settings: this.#engine.resolve_settings([...request.files], [...request.sets]) };
       case 'begin':
-        return { kind: 'begin', partLayers: this.#begin(request.settings) };
+        return { kind: 'begin', partLayers: this.#begin(request.settings, request.standing) };
       case 'prepare':
         this.#current().prepare();
         return { kind: 'prepare', layers: this.#current().layer_count() };
@@ -72,7 +82,7 @@ export class Lead {
       case 'compare':
         return { kind: 'compare', report: this.#current().compare() };
       case 'picture':
-        return { kind: 'picture', bounds: this.#picture(request.view) };
+        return { kind: 'picture', bounds: this.#picture(request.view, request.standing) };
       case 'paint':
         return { kind: 'paint', bitmap: this.#paint(request.camera, request.theme) };
       default:
@@ -80,10 +90,10 @@ export class Lead {
     }
   }
 
-  async #open(sources: readonly ModelSource[]): Promise<{ inspections: string[]; parse_ms: number }> {
-    this.#clear();
+  async #open(sources: readonly ModelSource[], keep: number): Promise<{ inspections: string[]; parse_ms: number }> {
+    this.#keep(keep);
     const started = performance.now();
-    for (const source of sources) {
+    for (const source of sources.slice(keep)) {
       this.#models.push(await this.#read(source));
       this.#names.push(stem(source.name));
     }
@@ -106,14 +116,34 @@ export class Lead {
     }
   }
 
-  #begin(settings: string): number {
+  #begin(settings: string, standing: Standing = this.#all()): number {
     this.#end();
     this.#job = new this.#engine.Job(
-      this.#models.map((model) => model.clone_model()),
-      this.#names,
+      this.#copies(standing),
+      standing.models.map((model) => this.#names[model] ?? 'model'),
       settings,
+      Float64Array.from(standing.placements),
     );
     return this.#job.layer_count();
+  }
+
+  /** Every open model once, to be arranged. */
+  #all(): Standing {
+    return { models: this.#models.map((_, k) => k), placements: [] };
+  }
+
+  #copies({ models }: Standing): Model[] {
+    return models.map((model) => this.#model(model).clone_model());
+  }
+
+  #edit(model: number, matrix: readonly number[], edit: Edit | undefined): Float64Array {
+    const placement = Float64Array.from(matrix);
+    if (edit === undefined) return this.#model(model).stand(placement);
+    return this.#model(model).edit(placement, JSON.stringify(edit));
+  }
+
+  #arrange({ placements, boxes, settings }: Extract<LeadRequest, { kind: 'arrange' }>): Float64Array {
+    return this.#engine.arrange_parts(Float64Array.from(placements), Float64Array.from(boxes), settings);
   }
 
   #slice(first: number, last: number): SlicedRange {
@@ -122,13 +152,14 @@ export class Lead {
     return taken(chunk);
   }
 
-  #finish(): { report: string; fileName: string; glue: Uint8Array<ArrayBuffer>; pieces: Uint32Array } {
+  #finish(): Joined {
     const result = this.#current().finish();
     const joined = {
       report: result.report(),
       fileName: result.file_name(),
       glue: result.glue() as Uint8Array<ArrayBuffer>,
       pieces: result.pieces(),
+      times: result.layer_times(),
     };
     result.free();
     return joined;
@@ -136,13 +167,16 @@ export class Lead {
 
   #model(index: number): Model {
     const model = this.#models[index];
-    if (model === undefined) throw new Error('there is no model');
+    if (model === undefined) throw new Error(`there is no model ${index}`);
     return model;
   }
 
-  #picture(view: string): Bounds {
+  #picture(view: string, standing: Standing = this.#all()): Bounds {
     this.#scene?.free();
-    this.#scene = this.#model(0).picture(view);
+    this.#scene = undefined;
+    const asInFile = standing.models.flatMap(() => IDENTITY);
+    const placements = standing.placements.length === 0 ? asInFile : standing.placements;
+    this.#scene = this.#engine.parts_picture(this.#copies(standing), Float64Array.from(placements), view);
     return boundsOf(this.#scene);
   }
 
@@ -166,14 +200,24 @@ export class Lead {
     this.#job = undefined;
   }
 
-  #clear(): void {
+  /** Lets all models but the first ones go, and what was made of them. */
+  #keep(count: number): void {
     this.#end();
     this.#scene?.free();
     this.#scene = undefined;
-    for (const model of this.#models) model.free();
-    this.#models = [];
-    this.#names = [];
+    for (const model of this.#models.splice(count)) model.free();
+    this.#names.splice(count);
   }
+}
+
+/** A matrix that leaves all where it is. */
+const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
+
+function shapeOf(model: Model): Shape {
+  return {
+    positions: model.positions() as Float32Array<ArrayBuffer>,
+    indices: model.indices() as Uint32Array<ArrayBuffer>,
+  };
 }
 
 /** The next bytes of a file; one that can't be read any more (moved, changed) is the model's fault, not ours. */

@@ -4,11 +4,14 @@
 import type {
   Bounds,
   CameraNumbers,
+  Edit,
   Evaluation,
   ModelSource,
   PictureView,
   Range,
+  Shape,
   SlicedRange,
+  Standing,
   Theme,
   Up,
 } from '../messages.ts';
@@ -36,6 +39,11 @@ export interface JobOptions {
   readonly settings: string;
   readonly signal?: AbortSignal;
   readonly progress?: (progress: Progress) => void;
+}
+
+export interface SliceOptions extends JobOptions {
+  /** Where the models stand; without it each open model is there once, and the engine arranges them. */
+  readonly standing?: Standing | undefined;
 }
 
 export interface Opened {
@@ -78,6 +86,37 @@ export class Pool {
     return this.ready();
   }
 
+  /** Reads more models beside the open ones; resolves to the inspections of all. */
+  async add(sources: readonly ModelSource[]): Promise<Opened> {
+    await this.ready();
+    const all = [...this.#sources, ...sources];
+    const keep = this.#sources.length;
+    const { inspections, parse_ms } = await this.#guard(this.#someLead().call({ kind: 'open', sources: all, keep }));
+    const opened = { inspections, parse_ms };
+    this.#sources = all;
+    this.#loaded = Promise.resolve(opened);
+    return opened;
+  }
+
+  /** The triangles of an open model. */
+  async shape(model: number): Promise<Shape> {
+    await this.ready();
+    return this.#guard(this.#someLead().call({ kind: 'shape', model }));
+  }
+
+  /** Where a part stands after `edit`, or as `matrix` says: its matrix (16 numbers) and its box (6 numbers). */
+  async edit(model: number, matrix: readonly number[], edit?: Edit): Promise<Float64Array> {
+    await this.ready();
+    const request = { kind: 'edit', model, matrix, ...(edit === undefined ? {} : { edit }) } as const;
+    return (await this.#guard(this.#someLead().call(request))).stand;
+  }
+
+  /** Placements that stand parts side by side; `boxes` are their boxes as `placements` leave them. */
+  async arrange(placements: readonly number[], boxes: readonly number[], settings: string): Promise<Float64Array> {
+    const arranged = this.#someLead().call({ kind: 'arrange', placements, boxes, settings });
+    return (await this.#guard(arranged)).placements;
+  }
+
   /** The models' reading; starts a new lead with them when the last one ended. */
   ready(): Promise<Opened> {
     this.#loaded ??= this.#load();
@@ -90,8 +129,8 @@ export class Pool {
   }
 
   /** Slices the open models. Rejects with an EngineError, or an AbortError once `signal` says so. */
-  slice({ settings, signal, progress }: JobOptions): Promise<Gcode> {
-    return this.#cancellable(this.#slice(settings, progress ?? (() => undefined)), signal);
+  slice({ settings, standing, signal, progress }: SliceOptions): Promise<Gcode> {
+    return this.#cancellable(this.#slice(settings, standing, progress ?? (() => undefined)), signal);
   }
 
   /** Begins a job and gives `draw` its lead; for pictures of layers and planes. */
@@ -127,11 +166,11 @@ export class Pool {
     return report;
   }
 
-  /** Makes a picture of the first model, to be painted; resolves to what it covers. */
-  async picture(view: PictureView): Promise<Bounds> {
+  /** Makes a picture of the parts on the bed, to be painted; resolves to what it covers. */
+  async picture(view: PictureView, standing?: Standing): Promise<Bounds> {
     const lead = this.#someLead();
     await this.ready();
-    const { bounds } = await this.#guard(lead.call({ kind: 'picture', view }));
+    const { bounds } = await this.#guard(lead.call({ kind: 'picture', view, standing }));
     this.#pictured = lead;
     return bounds;
   }
@@ -149,14 +188,19 @@ export class Pool {
     this.#sources = [];
   }
 
-  async #slice(settings: string, progress: (progress: Progress) => void): Promise<Gcode> {
+  async #slice(
+    settings: string,
+    standing: Standing | undefined,
+    progress: (progress: Progress) => void,
+  ): Promise<Gcode> {
     progress({ stage: 'read', done: 0, total: 0 });
     // This job talks to this lead only: a cancel closes it, and the job ends at its next word.
     const lead = this.#someLead();
     await this.ready();
-    if (turnsModels(settings)) await this.#turnModels(lead, settings, progress);
+    const models = new Set(standing?.models ?? this.#sources.keys());
+    if (turnsModels(settings)) await this.#turnModels(lead, models, settings, progress);
     progress({ stage: 'prepare', done: 0, total: 0 });
-    const { partLayers } = await lead.call({ kind: 'begin', settings });
+    const { partLayers } = await lead.call({ kind: 'begin', settings, standing });
     const helpers = this.#startHelpers(Math.ceil(partLayers / HELPER_LAYERS) - 1);
     let layers: number;
     let texts: Uint8Array<ArrayBuffer>[];
@@ -180,8 +224,13 @@ export class Pool {
   }
 
   /** Chooses the directions that the job will turn the models by; what can't be turned is the job's to tell. */
-  async #turnModels(lead: LeadLane, settings: string, progress: (progress: Progress) => void): Promise<void> {
-    for (const model of this.#sources.keys()) {
+  async #turnModels(
+    lead: LeadLane,
+    models: Iterable<number>,
+    settings: string,
+    progress: (progress: Progress) => void,
+  ): Promise<void> {
+    for (const model of models) {
       try {
         await this.#compareDirections(lead, { model, settings, all: false }, progress);
       } catch (error) {
@@ -229,7 +278,7 @@ export class Pool {
 
   async #load(): Promise<Opened> {
     const { inspections, parse_ms } = await this.#guard(
-      this.#someLead().call({ kind: 'open', sources: this.#sources }),
+      this.#someLead().call({ kind: 'open', sources: this.#sources, keep: 0 }),
     );
     return { inspections, parse_ms };
   }

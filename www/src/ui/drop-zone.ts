@@ -5,13 +5,14 @@ import type { ModelState } from '../state.ts';
 import { Part } from './part.ts';
 import { problemBox } from './problem-box.ts';
 
-/** Sends `open-file` with a File. */
+/** Sends `open-files` and `add-files` with a list of Files. */
 export class DropZone extends Part {
   static override properties = { model: { attribute: false }, starting: { type: Boolean }, over: { state: true } };
   declare model: ModelState;
   /** The engine is not there yet. */
   declare starting: boolean;
   declare over: boolean;
+  #how: 'open' | 'add' = 'open';
 
   constructor() {
     super();
@@ -36,15 +37,17 @@ export class DropZone extends Part {
 
   protected override render(): TemplateResult {
     return html`
-      <section class="card" aria-labelledby="model-heading">
-        <h2 id="model-heading">${t.model.heading}</h2>
-        ${this.#facts()}
-        <div class="row">
-          <button type="button" class="button" @click=${this.#choose}>${t.model.open}</button>
-          <span class="hint">${t.model.hint}</span>
-        </div>
-        <input type="file" accept=".stl,model/stl" hidden @change=${this.#chosen} />
-      </section>
+      ${this.#facts()}
+      <div class="row">
+        <button type="button" class="button" @click=${() => this.#choose('open')}>${t.model.open}</button>
+        ${
+          this.model.kind === 'open'
+            ? html`<button type="button" class="button" @click=${() => this.#choose('add')}>${t.model.add}</button>`
+            : nothing
+        }
+        <span class="hint">${t.model.hint}</span>
+      </div>
+      <input type="file" multiple accept=".stl,model/stl" hidden @change=${this.#chosen} />
       ${this.over ? html`<div class="drop-cover" aria-hidden="true"><p>${t.model.drop}</p></div>` : nothing}
     `;
   }
@@ -58,14 +61,14 @@ export class DropZone extends Part {
       case 'failed':
         return problemBox(this.model.problem);
       case 'open': {
-        const { source, facts } = this.model;
+        const remarks = this.model.models.flatMap((it) => it.facts.warnings.map(({ message }) => message));
+        const volume = this.model.models.reduce((sum, it) => sum + it.facts.volume_mm3, 0);
+        const triangles = this.model.models.reduce((sum, it) => sum + it.facts.triangles, 0);
         return html`
-          <p class="model-name">${source.name}</p>
           <p class="facts">
-            <span>${t.format.size(facts.size)}</span><span>${t.format.volume(facts.volume_mm3)}</span
-            ><span>${t.model.triangles(facts.triangles)}</span>
+            <span>${t.format.volume(volume)}</span><span>${t.model.triangles(triangles)}</span>
           </p>
-          ${facts.warnings.map(({ message }) => html`<p class="remark">${message}</p>`)}
+          ${remarks.map((message) => html`<p class="remark">${message}</p>`)}
         `;
       }
       default:
@@ -73,18 +76,19 @@ export class DropZone extends Part {
     }
   }
 
-  #choose(): void {
+  #choose(how: 'open' | 'add'): void {
+    this.#how = how;
     this.querySelector<HTMLInputElement>('input[type=file]')?.click();
   }
 
   #chosen(event: Event): void {
     const input = event.target as HTMLInputElement;
-    this.#open(input.files?.[0]);
+    this.#send(this.#how, input.files);
     input.value = '';
   }
 
-  #open(file: File | undefined): void {
-    if (file !== undefined) this.tell('open-file', file);
+  #send(how: 'open' | 'add', files: FileList | null | undefined): void {
+    if (files != null && files.length > 0) this.tell<readonly File[]>(`${how}-files`, [...files]);
   }
 
   #dragOver = (event: DragEvent): void => {
@@ -100,7 +104,7 @@ export class DropZone extends Part {
   #drop = (event: DragEvent): void => {
     event.preventDefault();
     this.over = false;
-    this.#open(event.dataTransfer?.files[0]);
+    this.#send('open', event.dataTransfer?.files);
   };
 }
 

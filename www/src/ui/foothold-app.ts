@@ -33,6 +33,29 @@ export class FootholdApp extends StepPart {
     this.printing = undefined;
   }
 
+  override connectedCallback(): void {
+    super.connectedCallback();
+    window.addEventListener('keydown', this.#key);
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    window.removeEventListener('keydown', this.#key);
+  }
+
+  /** Undo and redo, unless the key belongs to the text that is being typed. */
+  #key = (event: KeyboardEvent): void => {
+    const isTyping =
+      event.target instanceof HTMLElement && event.target.matches('input[type=text], input[type=search], textarea');
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || isTyping) return;
+    const key = event.key.toLowerCase();
+    const redo = key === 'y' || (key === 'z' && event.shiftKey);
+    if (!redo && key !== 'z') return;
+    event.preventDefault();
+    if (redo) this.session?.redo();
+    else this.session?.undo();
+  };
+
   protected override render(): TemplateResult {
     const { step, engine, language, dark } = this.state;
     return html`
@@ -110,7 +133,9 @@ export class FootholdApp extends StepPart {
     }
     if (job.kind === 'cancelled') return t.job.cancelled;
     if (job.kind === 'done' && result !== undefined) {
-      return t.job.done(result.report.layers, t.format.duration(result.report.time_s));
+      const done = t.job.done(result.report.layers, t.format.duration(result.report.time_s));
+      const remarks = result.report.warnings.length;
+      return remarks === 0 ? done : `${done} ${t.job.remarks(remarks)}`;
     }
     if (model.kind === 'reading') return t.model.reading(model.source.name);
     return model.kind === 'open' ? t.model.opened(model.source.name) : '';

@@ -1,30 +1,104 @@
 // Prepare: what is printed, and how.
-import { html, type TemplateResult } from 'lit';
+import { html, nothing, type TemplateResult } from 'lit';
 import settingsSchema from '../../../schema/settings.schema.json';
+import { t } from '../i18n/text.ts';
+import type { Edit, ModelSource } from '../messages.ts';
 import { withChange } from '../settings/changes.ts';
 import type { Schema } from '../settings/fields.ts';
+import { roomOf } from '../settings/room.ts';
+import { canDrawSpace } from '../view/webgl.ts';
 import './drop-zone.ts';
+import './part-list.ts';
+import { problemBox } from './problem-box.ts';
 import './settings-form.ts';
 import type { SettingChange } from './settings-form.ts';
 import { StepPart } from './step-part.ts';
 
 export class PrepareStep extends StepPart {
+  readonly #canLay = canDrawSpace();
+
   protected override render(): TemplateResult {
     const { model, engine, changes } = this.state;
     return html`
-      <drop-zone
-        .model=${model}
-        .starting=${engine === 'starting'}
-        @open-file=${({ detail }: CustomEvent<File>) => void this.session?.open({ name: detail.name, file: detail })}
-      ></drop-zone>
+      <section class="card" aria-labelledby="model-heading">
+        <div class="row spread">
+          <h2 id="model-heading">${t.model.heading}</h2>
+          ${this.#history()}
+        </div>
+        <drop-zone
+          .model=${model}
+          .starting=${engine === 'starting'}
+          @open-files=${({ detail }: CustomEvent<readonly File[]>) => void this.session?.open(detail.map(sourceOf))}
+          @add-files=${({ detail }: CustomEvent<readonly File[]>) => void this.session?.add(detail.map(sourceOf))}
+        ></drop-zone>
+        ${model.kind === 'open' ? this.#parts(model.models) : nothing}
+      </section>
       <settings-form
         .schema=${settingsSchema as Schema}
         .changes=${changes}
         @setting-change=${({ detail: { field, value } }: CustomEvent<SettingChange>) =>
           this.store?.update({ changes: withChange(changes, field, value) })}
+        @settings-import=${({ detail }: CustomEvent<File>) => void this.session?.importSettings(detail)}
+        @settings-export=${() => this.session?.exportSettings()}
+        @settings-reset=${() => this.store?.update({ changes: {} })}
       ></settings-form>
     `;
   }
+
+  #parts(models: Extract<typeof this.state.model, { kind: 'open' }>['models']): TemplateResult {
+    const { parts, selected, changes, laying, trouble } = this.state;
+    return html`
+      <part-list
+        .models=${models}
+        .parts=${parts}
+        .selected=${selected}
+        .room=${roomOf(changes)}
+        .laying=${laying}
+        .canLay=${this.#canLay}
+        @select-part=${({ detail }: CustomEvent<number | null>) => this.session?.select(detail ?? undefined)}
+        @duplicate-part=${({ detail }: CustomEvent<number>) => void this.session?.duplicate(detail)}
+        @remove-part=${({ detail }: CustomEvent<number>) => void this.session?.remove(detail)}
+        @edit-part=${({ detail: { id, edit } }: CustomEvent<{ id: number; edit: Edit }>) =>
+          void this.session?.change(id, edit)}
+        @move-part=${({ detail: { id, x, y } }: CustomEvent<{ id: number; x: number; y: number }>) =>
+          void this.session?.moveTo(id, x, y)}
+        @lay-flat=${({ detail }: CustomEvent<boolean>) => this.store?.update({ laying: detail })}
+      ></part-list>
+      ${
+        parts.length > 1
+          ? html`<button type="button" class="button small" @click=${() => void this.session?.arrange()}>
+            ${t.parts.arrange}
+          </button>`
+          : nothing
+      }
+      ${trouble === undefined ? nothing : problemBox(trouble)}
+    `;
+  }
+
+  #history(): TemplateResult {
+    const { past, future } = this.state.history;
+    return html`<span class="row tight">
+      ${icon(t.parts.undo, 'M6 3 2 7l4 4M2 7h8a4 4 0 0 1 0 8H7', past.length > 0, () => this.session?.undo())}
+      ${icon(t.parts.redo, 'M10 3l4 4-4 4M14 7H6a4 4 0 0 0 0 8h3', future.length > 0, () => this.session?.redo())}
+    </span>`;
+  }
 }
+
+function icon(label: string, path: string, enabled: boolean, act: () => void): TemplateResult {
+  return html`<button
+    type="button"
+    class="icon-button quiet"
+    aria-label=${label}
+    title=${label}
+    aria-disabled=${!enabled}
+    @click=${act}
+  >
+    <svg viewBox="0 0 16 16" width="16" height="16" aria-hidden="true" fill="none" stroke="currentColor" stroke-width="1.6">
+      <path d=${path} />
+    </svg>
+  </button>`;
+}
+
+const sourceOf = (file: File): ModelSource => ({ name: file.name, file });
 
 customElements.define('prepare-step', PrepareStep);

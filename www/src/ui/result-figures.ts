@@ -5,6 +5,7 @@ import { t } from '../i18n/text.ts';
 import type { LegendEntry } from '../messages.ts';
 import { words } from '../settings/fields.ts';
 import type { Remark } from '../state.ts';
+import type { RoleColour } from '../view/colours.ts';
 import { Part } from './part.ts';
 
 /** Roles that G-code names by one word, so that a layer read from it shows them in one colour. */
@@ -21,25 +22,35 @@ interface Row {
   readonly time_s: number;
 }
 
-/** Sends `layer-change` when a remark's layer is chosen. */
+/** Sends `layer-change` when a remark's layer is chosen, `roles-change` with the roles to leave out. */
 export class ResultFigures extends Part {
   static override properties = {
     report: { attribute: false },
     legend: { attribute: false },
+    roles: { attribute: false },
+    leftOut: { attribute: false },
+    filtering: { attribute: false },
+    colours: { attribute: false },
   };
   declare report: Report | undefined;
   declare legend: readonly LegendEntry[];
-  /** Colours of the roles seen so far: a layer's legend names only those on it. */
-  readonly #colours = new Map<string, string>();
+  /** Colours of all roles. */
+  declare roles: readonly RoleColour[];
+  /** Roles that the picture leaves out. */
+  declare leftOut: ReadonlySet<string>;
+  /** The picture can leave roles out. */
+  declare filtering: boolean;
+  /** What stands above the colours: by what they are chosen. */
+  declare colours: TemplateResult | typeof nothing;
 
   constructor() {
     super();
     this.report = undefined;
     this.legend = [];
-  }
-
-  protected override willUpdate(): void {
-    for (const { role, color } of this.legend) this.#colours.set(role, color);
+    this.roles = [];
+    this.leftOut = new Set();
+    this.filtering = false;
+    this.colours = nothing;
   }
 
   protected override render(): TemplateResult {
@@ -48,7 +59,11 @@ export class ResultFigures extends Part {
     return html`
       <section class="card" aria-labelledby="figures-heading">
         <h2 id="figures-heading">${t.figures.heading}</h2>
-        ${this.#figures(report)} ${this.#legend(report)} ${this.#remarks(report.warnings)}
+        ${this.#figures(report)} ${this.#remarks(report.warnings)}
+      </section>
+      <section class="card" aria-labelledby="colours-heading">
+        <h2 id="colours-heading">${t.view.colourBy}</h2>
+        ${this.colours} ${this.#legend(report)}
       </section>
     `;
   }
@@ -86,23 +101,57 @@ export class ResultFigures extends Part {
         </tr>
       </thead>
       <tbody>
-        ${rowsOf(report).map((row) => this.#row(row))}
+        ${rowsOf(report).map((row) => this.#row(row))} ${this.filtering ? this.#travels() : nothing}
       </tbody>
     </table>`;
   }
 
   #row({ roles, length_mm, time_s }: Row): TemplateResult {
     const drawn = sameWord.find((group) => group.includes(roles[0] ?? '')) ?? roles;
-    const colour = drawn.map((role) => this.#colours.get(role)).find((it) => it !== undefined);
+    const colour = this.roles.find(({ role }) => role === drawn[0])?.color;
     const here = this.legend.filter(({ role }) => drawn.includes(role)).reduce((sum, it) => sum + it.length_mm, 0);
     return html`<tr>
       <th scope="row">
-        <i class="swatch" style=${colour === undefined ? '' : `background:${colour}`} aria-hidden="true"></i>${labelOf(roles)}
+        ${this.#name(labelOf(roles), colour, drawn)}
       </th>
       <td>${here === 0 ? '' : t.format.metres(here)}</td>
       <td>${t.format.metres(length_mm)}</td>
       <td>${t.format.duration(time_s)}</td>
     </tr>`;
+  }
+
+  /** A role's name with its colour; as a switch where the picture can leave it out. */
+  #name(label: string, colour: string | undefined, roles: readonly string[]): TemplateResult {
+    const swatch = html`<i class="swatch" style=${colour === undefined ? '' : `background:${colour}`} aria-hidden="true"></i>`;
+    if (!this.filtering) return html`${swatch}${label}`;
+    const shown = !roles.some((role) => this.leftOut.has(role));
+    return html`<label class="role"
+      ><input
+        type="checkbox"
+        class="unseen"
+        aria-label=${t.view.shown(label)}
+        .checked=${shown}
+        @change=${() => this.#toggle(roles, shown)}
+      />${swatch}<span class=${shown ? '' : 'off'}>${label}</span></label
+    >`;
+  }
+
+  #travels(): TemplateResult {
+    return html`<tr>
+      <th scope="row">${this.#name(t.view.travels, '#5b8fd9', ['travel'])}</th>
+      <td></td>
+      <td></td>
+      <td></td>
+    </tr>`;
+  }
+
+  #toggle(roles: readonly string[], hide: boolean): void {
+    const hidden = new Set(this.leftOut);
+    for (const role of roles) {
+      if (hide) hidden.add(role);
+      else hidden.delete(role);
+    }
+    this.tell<ReadonlySet<string>>('roles-change', hidden);
   }
 
   #remarks(remarks: readonly Remark[]): TemplateResult | typeof nothing {
@@ -137,10 +186,10 @@ function rowsOf(report: Report): readonly Row[] {
   return [...rows.values()];
 }
 
-/** "Bottom skin, solid infill" */
+/** "Bottom skin, Solid infill" */
 function labelOf(roles: readonly string[]): string {
-  const label = roles.map((role) => words(role).toLowerCase()).join(', ');
-  return label.charAt(0).toUpperCase() + label.slice(1);
+  const names: Readonly<Record<string, string>> = t.roles;
+  return roles.map((role) => names[role] ?? words(role)).join(', ');
 }
 
 customElements.define('result-figures', ResultFigures);

@@ -1,39 +1,32 @@
 // The settings: what is used most first, then every stage's, all made from the engine's schema.
 import { html, nothing, type TemplateResult } from 'lit';
-import { t } from '../i18n/text.ts';
+import { groupLabel, labelOf, valueLabel } from '../i18n/settings.ts';
+import { spoken, t } from '../i18n/text.ts';
 import { type Changes, fault, parse } from '../settings/changes.ts';
-import { type Field, type Group, groupsOf, type Schema, type Value, words } from '../settings/fields.ts';
+import { type Depth, depths, found, shownAt } from '../settings/depths.ts';
+import { type Field, type Group, groupsOf, type Schema, type Value } from '../settings/fields.ts';
 import { Part } from './part.ts';
-
-/** Shown without opening anything; those that the schema does not have are left out. */
-const basic = [
-  'layers.height',
-  'walls.count',
-  'infill.density',
-  'infill.pattern',
-  'adhesion.kind',
-  'support.method',
-  'orientation.mode',
-  'filament.nozzle_temp',
-  'filament.bed_temp',
-];
 
 export interface SettingChange {
   readonly field: Field;
   readonly value: Value;
 }
 
-/** Sends `setting-change` with a SettingChange. */
+/** Sends `setting-change` with a SettingChange, `settings-import` with a File, `settings-export`, `settings-reset`. */
 export class SettingsForm extends Part {
   static override properties = {
     schema: { attribute: false },
     changes: { attribute: false },
     faults: { state: true },
+    depth: { state: true },
+    search: { state: true },
   };
   declare schema: Schema | undefined;
   declare changes: Changes;
   /** Why an input's text was not taken, by path. */
   declare faults: Readonly<Record<string, string>>;
+  declare depth: Depth;
+  declare search: string;
   #groups: readonly Group[] = [];
 
   constructor() {
@@ -41,6 +34,8 @@ export class SettingsForm extends Part {
     this.schema = undefined;
     this.changes = {};
     this.faults = {};
+    this.depth = 'basic';
+    this.search = '';
   }
 
   protected override willUpdate(changed: Map<string, unknown>): void {
@@ -48,25 +43,81 @@ export class SettingsForm extends Part {
   }
 
   protected override render(): TemplateResult {
-    const fields = this.#groups.flatMap((group) => group.fields);
-    const first = basic.map((path) => fields.find((field) => field.path === path)).filter((it) => it !== undefined);
+    const searching = this.search.trim() !== '';
+    const shown = searching
+      ? found(this.#groups, this.search, (field) => labelOf(field, spoken()))
+      : shownAt(this.depth, this.#groups);
+    const changed = Object.keys(this.changes).length;
     return html`
       <section class="card" aria-labelledby="settings-heading">
-        <h2 id="settings-heading">${t.settings.heading}</h2>
-        <div class="fields">${first.map((field) => this.#row(field, 'basic'))}</div>
-        <details class="all">
-          <summary>${t.settings.all}</summary>
-          ${this.#groups.map((group) => this.#group(group))}
-        </details>
+        <div class="row spread">
+          <h2 id="settings-heading">
+            ${t.settings.heading}
+            ${changed > 0 ? html`<span class="badge">${changed} ${t.settings.changed}</span>` : nothing}
+          </h2>
+          ${this.#files(changed > 0)}
+        </div>
+        <div class="choice wide" role="group" aria-label=${t.settings.depth}>
+          ${depths.map(
+            (
+              it,
+            ) => html`<button type="button" aria-pressed=${!searching && it === this.depth} @click=${() => this.#go(it)}>
+              ${t.settings.depths[it]}
+            </button>`,
+          )}
+        </div>
+        <input
+          type="search"
+          class="search"
+          aria-label=${t.settings.search}
+          placeholder=${t.settings.search}
+          .value=${this.search}
+          @input=${(event: Event) => {
+            this.search = (event.target as HTMLInputElement).value;
+          }}
+        />
+        ${shown.length === 0 ? html`<p class="hint">${t.settings.none}</p>` : nothing}
+        ${shown.map((group) => (this.depth === 'all' && !searching ? this.#folded(group) : this.#open(group)))}
       </section>
     `;
   }
 
-  #group(group: Group): TemplateResult {
+  #go(depth: Depth): void {
+    this.depth = depth;
+    this.search = '';
+  }
+
+  #files(changed: boolean): TemplateResult {
+    return html`<span class="row tight">
+      ${changed ? link(t.settings.resetAll, () => this.tell('settings-reset')) : nothing}
+      ${link(t.settings.import, () => this.querySelector<HTMLInputElement>('input[type=file]')?.click())}
+      ${link(t.settings.export, () => this.tell('settings-export'))}
+      <input
+        type="file"
+        accept=".json,application/json"
+        hidden
+        @change=${(event: Event) => {
+          const input = event.target as HTMLInputElement;
+          const file = input.files?.[0];
+          if (file !== undefined) this.tell('settings-import', file);
+          input.value = '';
+        }}
+      />
+    </span>`;
+  }
+
+  #open(group: Group): TemplateResult {
+    return html`<div class="open-group">
+      ${group.label === '' ? nothing : html`<h3>${groupLabel(group.path, spoken())}</h3>`}
+      <div class="fields">${group.fields.map((field) => this.#row(field, 'open'))}</div>
+    </div>`;
+  }
+
+  #folded(group: Group): TemplateResult {
     const changed = group.fields.filter((field) => field.path in this.changes).length;
     return html`<details class="group">
       <summary>
-        ${group.path === '' ? t.settings.general : groupLabel(group.path)}
+        ${group.path === '' ? t.settings.general : groupLabel(group.path, spoken())}
         ${changed > 0 ? html`<span class="badge">${changed} ${t.settings.changed}</span>` : nothing}
       </summary>
       <div class="fields">${group.fields.map((field) => this.#row(field, 'all'))}</div>
@@ -77,7 +128,7 @@ export class SettingsForm extends Part {
     const id = `${where}-${field.path}`;
     const changed = field.path in this.changes;
     return html`<div class="field ${changed ? 'changed' : ''} ${field.kind}">
-      <label for=${id} title=${field.help}>${field.label}</label>
+      <label for=${id}>${labelOf(field, spoken())}</label>
       ${this.#control(field, id)}
       <span class="unit">${'unit' in field ? t.settings.unit(field.unit) : ''}</span>
       ${changed ? this.#reset(field) : nothing} ${this.#note(field, id)}
@@ -89,16 +140,16 @@ export class SettingsForm extends Part {
     const change = (event: Event): void => this.#change(field, inputText(event.target));
     switch (field.kind) {
       case 'choice':
-        return html`<select id=${id} .value=${String(value)} @change=${change}>
+        return html`<select id=${id} aria-describedby="${id}-note" .value=${String(value)} @change=${change}>
           ${field.choices.map(
             (it) =>
-              html`<option value=${it.value} title=${it.help} ?selected=${it.value === value}>${words(it.value)}</option>`,
+              html`<option value=${it.value} title=${it.help} ?selected=${it.value === value}>${valueLabel(it.value, spoken())}</option>`,
           )}
         </select>`;
       case 'switch':
-        return html`<input id=${id} type="checkbox" .checked=${value === true} @change=${change} />`;
+        return html`<input id=${id} type="checkbox" aria-describedby="${id}-note" .checked=${value === true} @change=${change} />`;
       case 'text':
-        return html`<textarea id=${id} rows="4" spellcheck="false" .value=${String(value)} @change=${change}></textarea>`;
+        return html`<textarea id=${id} aria-describedby="${id}-note" rows="4" spellcheck="false" .value=${String(value)} @change=${change}></textarea>`;
       case 'number':
       case 'numbers':
         return html`<input
@@ -117,17 +168,17 @@ export class SettingsForm extends Part {
   }
 
   #reset(field: Field): TemplateResult {
-    const label = t.settings.reset(field.label, textOf(field.default));
+    const label = t.settings.reset(labelOf(field, spoken()), textOf(field.default));
     return html`<button type="button" class="reset" aria-label=${label} title=${label} @click=${() => this.#set(field, field.default)}>
       <span aria-hidden="true">↺</span>
     </button>`;
   }
 
-  /** Why the text was not taken; otherwise the range, for screen readers alone. */
-  #note(field: Field, id: string): TemplateResult | typeof nothing {
-    if (field.kind !== 'number' && field.kind !== 'numbers') return nothing;
+  /** Why the text was not taken; else help and range, which show while the row has the focus. */
+  #note(field: Field, id: string): TemplateResult {
     const reason = this.faults[field.path];
-    return html`<p id="${id}-note" class=${reason === undefined ? 'unseen' : 'fault'}>${reason ?? rangeOf(field)}</p>`;
+    const help = [field.help, rangeOf(field)].filter((it) => it !== '').join(' ');
+    return html`<p id="${id}-note" class=${reason === undefined ? 'help' : 'fault'}>${reason ?? help}</p>`;
   }
 
   #change(field: Field, text: string): void {
@@ -167,10 +218,8 @@ function rangeOf(field: Field): string {
   return t.settings.range(String(field.low), String(field.high), t.settings.unit(field.unit));
 }
 
-function groupLabel(path: string): string {
-  const [first = '', ...rest] = path.split('.').map((name) => name.replaceAll('_', ' '));
-  const label = [first, ...rest].join(', ');
-  return label.charAt(0).toUpperCase() + label.slice(1);
+function link(label: string, act: () => void): TemplateResult {
+  return html`<button type="button" class="link" @click=${act}>${label}</button>`;
 }
 
 customElements.define('settings-form', SettingsForm);

@@ -1,7 +1,7 @@
 // The picture: one layer's paths, or the model on the bed. Events -> camera -> the engine paints.
 import { html, nothing, type TemplateResult } from 'lit';
 import { t } from '../i18n/text.ts';
-import type { Bounds, LegendEntry, PictureView, Theme } from '../messages.ts';
+import type { Bounds, LegendEntry, PictureView, Standing, Theme } from '../messages.ts';
 import { Part } from '../ui/part.ts';
 import { type Camera, fitTo, numbers, pan, type Size, type Spot, zoom } from './camera.ts';
 import { listen } from './gestures.ts';
@@ -20,6 +20,7 @@ export class LayerView extends Part {
     show: { attribute: false },
     side: { attribute: false },
     model: { attribute: false },
+    standing: { attribute: false },
     layer: { attribute: false },
     job: { attribute: false },
     extent: { attribute: false },
@@ -31,6 +32,8 @@ export class LayerView extends Part {
   declare side: PictureView;
   /** Changes when another model is open; undefined when none is. */
   declare model: unknown;
+  /** How the parts stand that the model's picture shows. */
+  declare standing: Standing | undefined;
   declare layer: LayerText | undefined;
   /** Changes when another job's layers are shown: the camera then starts anew. */
   declare job: unknown;
@@ -55,6 +58,7 @@ export class LayerView extends Part {
     this.show = 'model';
     this.side = 'iso';
     this.model = undefined;
+    this.standing = undefined;
     this.layer = undefined;
     this.job = undefined;
     this.extent = undefined;
@@ -154,7 +158,7 @@ export class LayerView extends Part {
   async #drawLayer(painter: Painter): Promise<void> {
     const { layer, job } = this;
     if (layer === undefined) return;
-    await this.#adopt(painter);
+    if (!this.hidden) await this.#adopt(painter);
     if (this.#layered?.key !== layer.text) {
       const { bounds, legend } = await painter.layer(layer);
       if (this.#job !== job) this.#cameras.delete('layers');
@@ -162,6 +166,7 @@ export class LayerView extends Part {
       this.#layered = { key: layer.text, bounds };
       this.tell<readonly LegendEntry[]>('legend', legend);
     }
+    if (this.hidden) return;
     await painter.paintLayer(this.#view('layers', this.extent ?? this.#layered.bounds), this.#theme());
   }
 
@@ -169,7 +174,7 @@ export class LayerView extends Part {
     const { model, side } = this;
     if (model === undefined) return;
     if (this.#pictured?.key !== model || this.#pictured.side !== side) {
-      const bounds = await painter.picture(side);
+      const bounds = await painter.picture(side, this.standing);
       if (this.#pictured?.key !== model) for (const it of ['iso', 'top', 'front']) this.#cameras.delete(it);
       this.#pictured = { key: model, bounds, side };
     }

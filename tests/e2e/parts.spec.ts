@@ -1,0 +1,139 @@
+// Several parts: added, changed, undone, kept; the settings' depths, search and files.
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import path from 'node:path';
+import type { Page } from '@playwright/test';
+import { foothold } from '../node/command.ts';
+import { ball, binaryStl, box } from '../node/shapes.ts';
+import { download, downloadButton, expect, openFile, ready, sliceButton, stepTab, test } from './page.ts';
+
+const part = (page: Page, name: string) =>
+  page.getByRole('list', { name: 'Parts on the bed' }).getByRole('button', { name: new RegExp(`^${name}`) });
+
+/** Types into a field of the chosen part. */
+async function type(page: Page, label: string, value: string): Promise<void> {
+  const field = page.getByLabel(label, { exact: true });
+  await field.fill(value);
+  await field.press('Enter');
+}
+
+async function files(folder: string): Promise<{ cube: string; round: string }> {
+  mkdirSync(folder, { recursive: true });
+  const [cube, round] = [path.join(folder, 'cube.stl'), path.join(folder, 'round.stl')];
+  writeFileSync(cube, binaryStl(box(20, 10, 6)));
+  writeFileSync(round, binaryStl(ball(8, 16)));
+  return { cube, round };
+}
+
+async function addFile(page: Page, file: string): Promise<void> {
+  const chooser = page.waitForEvent('filechooser');
+  await page.getByRole('button', { name: 'Add model' }).click();
+  await (await chooser).setFiles(file);
+}
+
+test("two models are arranged, and their bytes are the command line's", async ({ page }, { outputDir }) => {
+  const { cube, round } = await files(outputDir);
+  await ready(page);
+  await openFile(page, cube);
+  await expect(part(page, 'cube.stl')).toBeVisible();
+  await addFile(page, round);
+  await expect(part(page, 'round.stl')).toBeVisible();
+  await sliceButton(page).click();
+  await expect(downloadButton(page)).toBeEnabled();
+  const bytes = readFileSync((await download(page)).file);
+  expect(await foothold(['slice', cube, round, '-o', 'both.gcode'], outputDir)).toMatchObject({ code: 0, err: '' });
+  expect(readFileSync(path.join(outputDir, 'both.gcode')).equals(bytes)).toBe(true);
+});
+
+test('a part is turned, scaled, mirrored, moved, duplicated and removed; all of it can be undone', async ({ page }, {
+  outputDir,
+}) => {
+  const { cube } = await files(outputDir);
+  await ready(page);
+  await openFile(page, cube);
+  await expect(part(page, 'cube.stl')).toContainText('20 × 10 × 6 mm');
+  await part(page, 'cube.stl').click();
+  await page.getByRole('button', { name: 'Turn about X by 90°' }).click();
+  await expect(part(page, 'cube.stl')).toContainText('20 × 6 × 10 mm');
+  await type(page, 'Scale, %', '200');
+  await expect(part(page, 'cube.stl')).toContainText('40 × 12 × 20 mm');
+  await page.getByLabel('Keep proportions').uncheck();
+  await type(page, 'Size along Z, mm', '5');
+  await expect(part(page, 'cube.stl')).toContainText('40 × 12 × 5 mm');
+  await page.getByRole('button', { name: 'Mirror X' }).click();
+  await type(page, 'Middle along X, mm', '30');
+  await page.getByRole('button', { name: 'Duplicate' }).click();
+  await expect(part(page, 'cube.stl')).toHaveCount(2);
+  await page.getByRole('button', { name: 'Remove cube.stl 1' }).click();
+  await expect(part(page, 'cube.stl')).toHaveCount(1);
+
+  await page.getByRole('button', { name: 'Undo' }).click();
+  await expect(part(page, 'cube.stl')).toHaveCount(2);
+  for (let step = 0; step < 6; step++) await page.getByRole('button', { name: 'Undo' }).click();
+  await expect(part(page, 'cube.stl')).toContainText('20 × 10 × 6 mm');
+  await expect(page.getByRole('button', { name: 'Undo' })).toHaveAttribute('aria-disabled', 'true');
+  await stepTab(page, 'Prepare').focus();
+  await page.keyboard.press('Control+Shift+Z');
+  await expect(part(page, 'cube.stl')).toContainText('20 × 6 × 10 mm');
+  await page.keyboard.press('Control+Z');
+  await expect(part(page, 'cube.stl')).toContainText('20 × 10 × 6 mm');
+});
+
+test('a part outside the printer is marked, and slicing says where it stands', async ({ page }, { outputDir }) => {
+  const { cube } = await files(outputDir);
+  await ready(page);
+  await openFile(page, cube);
+  await part(page, 'cube.stl').click();
+  await type(page, 'Middle along X, mm', '5');
+  await expect(part(page, 'cube.stl')).toContainText('Stands outside the printer');
+  await sliceButton(page).click();
+  await expect(page.getByRole('alert')).toContainText('part 1 reaches from (-5.0, 105.0, 0.0)');
+  await type(page, 'Middle along X, mm', '50');
+  await sliceButton(page).click();
+  await expect(downloadButton(page)).toBeEnabled();
+  const text = readFileSync((await download(page)).file, 'utf8');
+  const inWalls = text.slice(text.indexOf(';TYPE:External perimeter'));
+  const xs = [...inWalls.matchAll(/^G1 X([\d.]+) Y/gm)].slice(0, 4).map((match) => Number(match[1]));
+  for (const x of xs) expect(Math.abs(x - 50)).toBeLessThan(10);
+});
+
+test('settings and parts are there again at the next visit', async ({ page }, { outputDir }) => {
+  const { cube } = await files(outputDir);
+  await ready(page);
+  await openFile(page, cube);
+  await part(page, 'cube.stl').click();
+  await page.getByRole('button', { name: 'Turn about Y by 90°' }).click();
+  await expect(part(page, 'cube.stl')).toContainText('6 × 10 × 20 mm');
+  await page.getByLabel('Walls', { exact: true }).fill('5');
+  await page.getByLabel('Walls', { exact: true }).press('Tab');
+  await page.reload();
+  await expect(part(page, 'cube.stl')).toContainText('6 × 10 × 20 mm');
+  await expect(page.getByLabel('Walls', { exact: true })).toHaveValue('5');
+});
+
+test('settings: depths, search, export, import, undo', async ({ page }) => {
+  await ready(page);
+  await expect(page.getByLabel('Travel', { exact: true })).toHaveCount(0);
+  await page.getByRole('button', { name: 'Usual' }).click();
+  await expect(page.getByLabel('Travel', { exact: true })).toBeVisible();
+  await page.getByLabel('Search settings').fill('junction deviation');
+  await page.getByLabel('Junction deviation', { exact: true }).fill('0.05');
+  await page.getByLabel('Junction deviation', { exact: true }).press('Tab');
+  const waiting = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Export' }).click();
+  const file = await (await waiting).path();
+  expect(JSON.parse(readFileSync(file, 'utf8'))).toEqual({ printer: { junction_deviation: 0.05 } });
+  await page.getByRole('button', { name: 'Reset', exact: true }).click();
+  await expect(page.getByLabel('Junction deviation', { exact: true })).not.toHaveValue('0.05');
+
+  const choose = async (text: string): Promise<void> => {
+    const chooser = page.waitForEvent('filechooser');
+    await page.getByRole('button', { name: 'Import' }).click();
+    await (await chooser).setFiles({ name: 'my.json', mimeType: 'application/json', buffer: Buffer.from(text) });
+  };
+  await choose(readFileSync(file, 'utf8'));
+  await expect(page.getByLabel('Junction deviation', { exact: true })).toHaveValue('0.05');
+  await choose('{"walls":{"count":-3}}');
+  await expect(page.getByRole('alert')).toContainText('walls.count');
+  await page.getByRole('button', { name: 'Undo' }).click();
+  await expect(page.getByLabel('Junction deviation', { exact: true })).not.toHaveValue('0.05');
+});

@@ -1,0 +1,97 @@
+// The pictures in space, drawn by the browser's own software renderer.
+import { mkdirSync, writeFileSync } from 'node:fs';
+import path from 'node:path';
+import type { Page } from '@playwright/test';
+import { binaryStl, box } from '../node/shapes.ts';
+import { expect, layerSlider, openFile, picture, ready, settled, sliceButton, stepTab, test } from './page.ts';
+
+test.use({
+  launchOptions: [
+    async ({ launchOptions }, use) => {
+      const args = (launchOptions.args ?? []).filter((it) => it !== '--disable-gpu');
+      await use({ ...launchOptions, args: [...args, '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
+    },
+    { scope: 'worker' },
+  ],
+});
+
+const row = (page: Page) => page.getByRole('list', { name: 'Parts on the bed' }).getByRole('button').first();
+
+test('a part is chosen, dragged and laid on a face in the picture', async ({ page }, { outputDir }) => {
+  mkdirSync(outputDir, { recursive: true });
+  const file = path.join(outputDir, 'bar.stl');
+  writeFileSync(file, binaryStl(box(40, 20, 10)));
+  await ready(page);
+  await openFile(page, file);
+  await expect(row(page)).toContainText('40 × 20 × 10 mm');
+  await page.getByRole('button', { name: 'Top', exact: true }).click();
+  const before = await settled(page);
+  const view = await picture(page).boundingBox();
+  if (view === null) throw new Error('no picture');
+  const [x, y] = [view.x + view.width / 2, view.y + view.height / 2];
+  await page.mouse.click(x, y);
+  await expect(row(page)).toHaveAttribute('aria-pressed', 'true');
+  expect((await settled(page)).equals(before)).toBe(false);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 60, y, { steps: 5 });
+  await page.mouse.up();
+  await expect.poll(async () => Number(await page.getByLabel('Middle along X, mm').inputValue())).toBeGreaterThan(111);
+  expect(Number(await page.getByLabel('Middle along Y, mm').inputValue())).toBeCloseTo(110, 0);
+  await page.getByRole('button', { name: 'Undo' }).click();
+  await expect(page.getByLabel('Middle along X, mm')).toHaveValue('110');
+
+  await page.getByRole('button', { name: 'Front', exact: true }).click();
+  await page.getByRole('button', { name: 'Lay a face flat' }).click();
+  await settled(page);
+  await page.mouse.click(x, y);
+  await expect(row(page)).toContainText('40 × 10 × 20 mm');
+
+  await picture(page).focus();
+  await page.keyboard.press('Shift+ArrowRight');
+  await expect(page.getByLabel('Middle along X, mm')).toHaveValue('111');
+  await page.keyboard.press('Delete');
+  await expect(row(page)).toHaveCount(0);
+});
+
+test('the beads in space: layers, moves, colours, roles, flat view', async ({ page }) => {
+  await ready(page);
+  await sliceButton(page).click();
+  await expect(stepTab(page, 'Preview')).toHaveAttribute('aria-selected', 'true');
+  const moves = page.getByRole('slider', { name: 'Move' });
+  await expect(moves).toBeVisible();
+  await layerSlider(page).fill('120');
+  const half = await settled(page);
+  await layerSlider(page).fill('240');
+  const whole = await settled(page);
+  expect(whole.equals(half)).toBe(false);
+  await page.getByRole('button', { name: 'Speed', exact: true }).click();
+  const bySpeed = await settled(page);
+  expect(bySpeed.equals(whole)).toBe(false);
+  await expect(page.locator('.colour-scale')).toContainText('mm/s');
+  await page.getByRole('button', { name: 'Role', exact: true }).click();
+  expect((await settled(page)).equals(whole)).toBe(true);
+  await page.getByLabel('Show Outer wall').uncheck({ force: true });
+  expect((await settled(page)).equals(whole)).toBe(false);
+  await page.getByLabel('Show Outer wall').check({ force: true });
+  await moves.fill('1');
+  expect((await settled(page)).equals(whole)).toBe(false);
+  await page.getByRole('button', { name: 'Play' }).click();
+  await expect.poll(async () => Number(await moves.inputValue())).toBeGreaterThan(1);
+  await page.getByRole('button', { name: 'Stop' }).click();
+  await page.getByRole('button', { name: 'Flat' }).click();
+  await expect(moves).toHaveCount(0);
+  expect((await settled(page)).length).toBeGreaterThan(0);
+});
+
+test('two clicks measure a distance', async ({ page }) => {
+  await ready(page);
+  await page.getByRole('button', { name: 'Top', exact: true }).click();
+  await settled(page);
+  await page.getByRole('button', { name: 'Measure' }).click();
+  const view = await picture(page).boundingBox();
+  if (view === null) throw new Error('no picture');
+  await page.mouse.click(view.x + 100, view.y + 120);
+  await page.mouse.click(view.x + 300, view.y + 120);
+  await expect(page.locator('output')).toHaveText(/^[\d.]+ mm$/);
+});

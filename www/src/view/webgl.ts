@@ -1,0 +1,12 @@
+// Whether there can be pictures in space.
+
+let drawsSpace: boolean | undefined;
+
+/** Whether the browser can draw in space; tried once. */
+export function canDrawSpace(): boolean {
+  if (drawsSpace !== undefined) return drawsSpace;
+  const context = document.createElement('canvas').getContext('webgl2');
+  context?.getExtension('WEBGL_lose_context')?.loseContext();
+  drawsSpace = context !== null;
+  return drawsSpace;
+}
