@@ -3,7 +3,7 @@ import { speak } from './i18n/text.ts';
 import { loadChanges, loadModels, saveChanges, saveModels } from './keep.ts';
 import { loadPreferences, savePreferences } from './preferences.ts';
 import { PrintSession } from './printer/print-session.ts';
-import { problemOf, Session } from './session.ts';
+import { problemOf, SAMPLE, Session } from './session.ts';
 import { allFields } from './settings/room.ts';
 import { Pool } from './slicer/pool.ts';
 import { compileEngine, pageLanes, viewLane, workerCount } from './slicer/threads.ts';
@@ -30,8 +30,9 @@ try {
   app.session = new Session(store, pool);
   app.painter = painter(pool, viewLane(module));
   store.update({ engine: 'ready', roles: await app.painter.roles() });
-  await app.session.start(location.href, await loadModels());
+  const kept = await loadModels();
   keepWork(store);
+  await app.session.start(location.href, kept);
 } catch (error) {
   store.update({ engine: problemOf(error) });
 }
@@ -60,8 +61,10 @@ function keepWork(store: Store): void {
   let before: State = store.state;
   store.listen((state) => {
     if (state.changes !== before.changes) saveChanges(state.changes);
-    const { model, parts, arranged } = state;
-    if (model.kind === 'open' && (model !== before.model || parts !== before.parts)) {
+    const { model, parts, arranged, history } = state;
+    // The sample is there at every first visit: it is kept once somebody has changed it.
+    const isOwn = model.kind === 'open' && (model.source.name !== SAMPLE || history.past.length > 0);
+    if (isOwn && (model !== before.model || parts !== before.parts)) {
       void saveModels({ sources: model.models.map(({ source }) => source), parts, arranged });
     }
     before = state;

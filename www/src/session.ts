@@ -23,6 +23,9 @@ import {
 } from './state.ts';
 import { canDrawSpace } from './view/webgl.ts';
 
+/** The model that lies beside the page, for visitors who bring none. */
+export const SAMPLE = 'sample.stl';
+
 export class Session {
   readonly #store: Store;
   readonly #pool: Pool;
@@ -50,7 +53,7 @@ export class Session {
       // The visitor may be at another step by now, and stays there.
       if (kept !== undefined) await this.#open(kept.sources, this.#store.state.step, kept);
       if (this.#store.state.model.kind === 'open') return;
-      await this.#open([await fetched('sample.stl', 'sample.stl')], this.#store.state.step);
+      await this.#open([await fetched(SAMPLE, SAMPLE)], this.#store.state.step);
       await this.#slice(() => this.#store.state.step);
     } catch (error) {
       this.#store.update({ model: { kind: 'failed', problem: problemOf(error) } });
