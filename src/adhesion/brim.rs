@@ -2,7 +2,7 @@
 
 use super::clip::{Line, to_area, to_box};
 use super::error::{AdhesionWarning, WarningCode};
-use super::ground::{Ground, simplified_by};
+use super::ground::{FAST_VERTICES, Ground, simplified_by};
 use super::options::{BrimOptions, BrimSide};
 use super::{FirstLayer, Foundation};
 use crate::polygon::simplify::simplify_ring;
@@ -17,6 +17,9 @@ const CORNER_TOLERANCE_MM: f64 = 0.1;
 /// Each loop follows the one inside it, simplified by this, mm: a twentieth of a usual line, which
 /// halves the time.
 const LOOP_TOLERANCE_MM: f64 = 0.02;
+
+/// The same for loops of more than [`FAST_VERTICES`]: an eighth of a line.
+const MANY_LOOPS_TOLERANCE_MM: f64 = 0.05;
 
 /// Corners of an ear's round area.
 const EAR_CORNERS: u32 = 32;
@@ -74,7 +77,9 @@ fn offsets(area: &PolygonSet, options: &BrimOptions) -> Vec<Loop> {
     for level in 0..count(options) {
         if level > 0 {
             // From loop to loop: corners that were cut off at the mitre's limit stay as they are.
-            at = simplified_by(&at, LOOP_TOLERANCE_MM).offset(options.line_width, Join::WALL);
+            let many = at.vertex_count() > FAST_VERTICES;
+            let tolerance = if many { MANY_LOOPS_TOLERANCE_MM } else { LOOP_TOLERANCE_MM };
+            at = simplified_by(&at, tolerance).offset(options.line_width, Join::WALL);
         }
         let ring = |c: &Contour| Loop { home: 0, level, line: Line::ring(c.points.clone()) };
         loops.extend(at.contours().iter().map(ring));

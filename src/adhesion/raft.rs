@@ -1,7 +1,7 @@
 //! Layers below the part, and the air gap that lets it come off.
 
 use super::error::{AdhesionWarning, WarningCode};
-use super::ground::{Ground, simplified_by};
+use super::ground::{Ground, grown, simplified_by};
 use super::options::RaftOptions;
 use super::{FirstLayer, Foundation, RaftLayer};
 use crate::polygon::{DVec2, Join, PolygonSet, dvec2};
@@ -17,7 +17,12 @@ const BORDER_TOLERANCE_MM: f64 = 0.05;
 
 /// A sparse base layer on the bed and dense interface layers on it, lines crossing from layer to layer.
 pub(super) fn raft(first: &FirstLayer, ground: &Ground, options: &RaftOptions) -> Foundation {
-    let whole = simplified_by(&ground.area, BORDER_TOLERANCE_MM).offset(options.margin, Join::Square);
+    let whole = grown(
+        &simplified_by(&ground.area, BORDER_TOLERANCE_MM),
+        options.margin,
+        Join::Square,
+        BORDER_TOLERANCE_MM,
+    );
     let whole = simplified_by(&whole, BORDER_TOLERANCE_MM);
     let bed = PolygonSet::rectangle(first.bed.min, first.bed.max);
     let fits = whole.bounds().is_none_or(|b| first.bed.contains(b));

@@ -18,6 +18,18 @@ pub enum Warping {
     Much,
 }
 
+impl Warping {
+    /// By the material's name as profiles write it, such as "PETG" or "ABS+"; unknown ones warp little.
+    pub fn of_material(name: &str) -> Warping {
+        let letters: String = name.trim().chars().take_while(char::is_ascii_alphabetic).collect();
+        match letters.to_ascii_uppercase().as_str() {
+            "ABS" | "ASA" | "PA" | "NYLON" | "PC" | "PP" | "HIPS" | "POM" => Warping::Much,
+            "PET" | "PETG" | "CPE" | "PCTG" => Warping::Some,
+            _ => Warping::Little,
+        }
+    }
+}
+
 /// Something about a first layer that makes it lift.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -113,6 +125,14 @@ mod tests {
             dvec2(100.0, 100.0) + dvec2(cos, sin) * radius
         };
         PolygonSet::from_contours(vec![Contour::new((0..90).map(at).collect())])
+    }
+
+    #[test]
+    fn materials_are_known_by_their_first_word() {
+        let of = |names: &[&str]| names.iter().map(|n| Warping::of_material(n)).collect::<Vec<_>>();
+        assert_eq!(of(&["ABS", "asa", "PA12-CF", "PC blend", "ABS+"]), [Warping::Much; 5]);
+        assert_eq!(of(&["PETG", "PET-CF"]), [Warping::Some; 2]);
+        assert_eq!(of(&["PLA", "PLA+", "TPU 95A", "", "PACF?"]), [Warping::Little; 5]);
     }
 
     #[test]

@@ -24,6 +24,17 @@ pub struct Net {
     weights: [f32; WEIGHTS],
 }
 
+/// A hidden unit in front of one row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    /// Weights of the row's six volumes.
+    pub weights: [f64; DIRECTIONS],
+    /// Bias plus the weighted volumes; the unit fires where this is positive.
+    pub drive: f64,
+    /// Weight of the unit in the evidence.
+    pub output: f64,
+}
+
 /// Six volumes that are finite, not negative, and scaled so that the largest is 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScaledVolumes([f64; DIRECTIONS]);
@@ -67,16 +78,24 @@ impl Net {
         self.weights.iter().flat_map(|w| w.to_le_bytes()).collect()
     }
 
+    /// The hidden units and what a row drives them to.
+    pub fn units(&self, row: &[f64; DIRECTIONS]) -> [Unit; HIDDEN] {
+        let (inputs, rest) = self.weights.split_at(HIDDEN * DIRECTIONS);
+        let (biases, outputs) = rest.split_at(HIDDEN);
+        std::array::from_fn(|i| {
+            let weights = std::array::from_fn(|j| f64::from(inputs[i * DIRECTIONS + j]));
+            let drive = row
+                .iter()
+                .zip(weights)
+                .fold(f64::from(biases[i]), |sum, (share, weight)| sum + weight * share);
+            Unit { weights, drive, output: f64::from(outputs[i]) }
+        })
+    }
+
     /// Evidence that the first of the six is the minimum: above 0 means yes.
     pub fn evidence(&self, row: &[f64; DIRECTIONS]) -> f64 {
-        let (inputs, rest) = self.weights.split_at(HIDDEN * DIRECTIONS);
-        let (biases, rest) = rest.split_at(HIDDEN);
-        let (outputs, last) = rest.split_at(HIDDEN);
-        let units = inputs.chunks_exact(DIRECTIONS).zip(biases).zip(outputs);
-        units.fold(f64::from(last[0]), |sum, ((weights, &bias), &output)| {
-            let drive = weights.iter().zip(row).fold(f64::from(bias), |s, (&w, &v)| s + f64::from(w) * v);
-            sum + f64::from(output) * drive.max(0.0)
-        })
+        let bias = f64::from(self.weights[WEIGHTS - 1]);
+        self.units(row).iter().fold(bias, |sum, unit| sum + unit.output * unit.drive.max(0.0))
     }
 
     /// O_1: 1 for each direction that the network takes for a minimum.

@@ -14,6 +14,7 @@ use std::fmt;
 
 use glam::DMat4;
 
+pub use compare::{Alternative, Alternatives};
 pub use place::{FitError, Placed, arrange, place_as_told, place_on_bed};
 pub use range::{PRINT_RESOLUTION, RangeMeta, RangePlan, RangeResult, Share};
 use turn::{Turned, turn_models, turn_standing};
@@ -22,7 +23,7 @@ pub use report::{AdhesionReport, FilamentReport, ModelReport, Report, SupportRep
 
 use crate::adhesion::{
     AdhesionError, AdhesionKind, AdhesionOptions, AdhesionWarning, FirstLayer, Foundation, RaftLayer,
-    lay_foundation,
+    TeethDrawing, lay_foundation,
 };
 use crate::gcode::{FileNotes, GcodeError, Joined, LayerSummary, format_duration, join};
 use crate::mesh::LoadedModel;
@@ -36,7 +37,8 @@ use crate::settings::Settings;
 use crate::slice::heights::plan_layers;
 use crate::slice::{Axis, LayerSpec, slice_mesh};
 use crate::support::{
-    SupportError, SupportInput, SupportMethod, SupportWarning, Supports, check_options, plan_supports,
+    SupportError, SupportInput, SupportMethod, SupportOptions, SupportWarning, Supports, check_options,
+    plan_supports,
 };
 use crate::toolpath::infill::line_density;
 use crate::toolpath::seam::{SeamLine, SeamPosition, chain_seams};
@@ -125,6 +127,8 @@ pub struct Job {
     line_density: f64,
     orientation: Option<OrientationReport>,
     adhesion: AdhesionReport,
+    /// Rail and teeth to look at; after [`Job::prepare`], only with teeth.
+    teeth: Option<TeethDrawing>,
     support: Option<SupportReport>,
     /// What is known of each layer so far.
     layers: Vec<Option<LayerSummary>>,
@@ -186,6 +190,7 @@ impl Job {
             laid: Vec::new(),
             seams: Vec::new(),
             line_density: settings.infill.density,
+            teeth: None,
             support: None,
             adhesion: AdhesionReport::default(),
             timing: Timing::default(),
@@ -227,8 +232,10 @@ impl Job {
         let started = clock();
         let supports = self.plan_supports()?;
         let supported = clock();
-        let foundation = self.lay_foundation(&self.settings.adhesion, &supports.bed_area())?;
-        let kind = self.settings.adhesion.kind;
+        let adhesion = &self.settings.adhesion;
+        let kind = adhesion.kind;
+        let foundation = self.lay_foundation(adhesion, &self.first_outline(kind), &supports.bed_area())?;
+        self.teeth.clone_from(&foundation.drawing);
         self.adhesion = AdhesionReport::new(kind, &foundation.figures, clock() - supported);
         self.timing.support = supported - started;
         self.timing.adhesion = clock() - supported;
@@ -279,39 +286,76 @@ impl Job {
 
     /// Supports of the whole part.
     fn plan_supports(&self) -> Result<Supports, JobError> {
-        let options = &self.settings.support;
+        self.supports(&self.settings.support)
+    }
+
+    /// Supports of the whole part by other settings than the job's.
+    pub fn supports(&self, options: &SupportOptions) -> Result<Supports, JobError> {
         check_options(options).map_err(JobError::Support)?;
         if options.method == SupportMethod::None {
             return Ok(Supports::default());
         }
-        let heights: Vec<f64> = self.specs.iter().map(|s| s.slice_z).collect();
-        let sections = slice_mesh(&self.mesh, Axis::Z, &heights, PRINT_RESOLUTION);
-        let areas: Vec<PolygonSet> = sections.into_iter().map(|s| s.area).collect();
+        let areas = self.areas();
         let input = SupportInput { mesh: &self.mesh, layers: &self.specs, areas: &areas };
         plan_supports(&input, options, &mut |_, _| true).map_err(JobError::Support)
+    }
+
+    /// The part's section in each of its layers.
+    pub fn areas(&self) -> Vec<PolygonSet> {
+        let heights = self.part_heights();
+        slice_mesh(&self.mesh, Axis::Z, &heights, PRINT_RESOLUTION).into_iter().map(|s| s.area).collect()
+    }
+
+    /// Where the part's layers are cut, mm.
+    pub fn part_heights(&self) -> Vec<f64> {
+        // Layers of a raft are cut below the part.
+        self.specs.iter().map(|s| s.slice_z).filter(|&z| z > 0.0).collect()
+    }
+
+    /// Rail, teeth and the outline they are measured to; known after [`Job::prepare`].
+    pub fn teeth_drawing(&self) -> Option<&TeethDrawing> {
+        self.teeth.as_ref()
+    }
+
+    /// The part's first layer as it will be printed on or beside this kind of base.
+    pub fn first_outline(&self, kind: AdhesionKind) -> PolygonSet {
+        let height = self.part_heights().first().copied().unwrap_or_default();
+        let bottom = slice_mesh(&self.mesh, Axis::Z, &[height], PRINT_RESOLUTION);
+        let section = bottom.into_iter().next().unwrap_or_default().area;
+        // On a raft nothing is squeezed against the bed.
+        if kind == AdhesionKind::Raft { section } else { draw_in(&section, &self.settings.first_layer) }
+    }
+
+    /// The printable area of the bed.
+    pub fn bed(&self) -> Bounds {
+        Bounds { min: DVec2::ZERO, max: DVec2::from_array(self.settings.printer.bed_size) }
+    }
+
+    /// What other settings than the job's lay around or below the part without supports.
+    pub fn foundation(&self, adhesion: &AdhesionOptions) -> Result<Foundation, JobError> {
+        self.lay_foundation(adhesion, &self.first_outline(adhesion.kind), &PolygonSet::EMPTY)
     }
 
     /// What is laid around or below the first layer of part and supports.
     fn lay_foundation(
         &self,
         adhesion: &AdhesionOptions,
+        outline: &PolygonSet,
         supports: &PolygonSet,
     ) -> Result<Foundation, JobError> {
-        let Settings { first_layer, layers, printer, .. } = &self.settings;
-        let bottom = slice_mesh(&self.mesh, Axis::Z, &[self.specs[0].slice_z], PRINT_RESOLUTION);
-        let section = bottom.into_iter().next().unwrap_or_default().area;
-        // On a raft nothing is squeezed against the bed.
-        let outline =
-            if adhesion.kind == AdhesionKind::Raft { section } else { draw_in(&section, first_layer) };
-        let first = FirstLayer {
-            outline: &outline,
+        lay_foundation(&self.first_layer(outline, supports), adhesion).map_err(JobError::Adhesion)
+    }
+
+    fn first_layer<'a>(&self, outline: &'a PolygonSet, supports: &'a PolygonSet) -> FirstLayer<'a> {
+        let Settings { first_layer, layers, .. } = &self.settings;
+        FirstLayer {
+            outline,
             supports,
-            bed: Bounds { min: DVec2::ZERO, max: DVec2::from_array(printer.bed_size) },
+            bed: self.bed(),
             line_width: first_layer.line_width,
             height: layers.first_height,
             next_height: layers.height,
-        };
-        lay_foundation(&first, adhesion).map_err(JobError::Adhesion)
+        }
     }
 
     /// Puts the raft's layers below the part's.
@@ -397,7 +441,7 @@ impl Job {
         let report = self.report(&joined);
         let file_name = self.file_name(report.time_s);
         let layer_times_s = summaries.iter().map(|s| s.time_s).collect();
-        Ok(Finished { joined, report, file_name, layer_times_s })
+        Ok(Finished { joined, report, file_name, layer_times_s, teeth: self.teeth })
     }
 
     fn report(&self, joined: &Joined) -> Report {
@@ -451,6 +495,8 @@ pub struct Finished {
     pub file_name: String,
     /// Seconds from the first to the last stop of each layer; travels between layers are in none.
     pub layer_times_s: Vec<f64>,
+    /// Rail, teeth and the outline they are measured to, for the picture of the first layer.
+    pub teeth: Option<TeethDrawing>,
 }
 
 /// Name and version of this engine.

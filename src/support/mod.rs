@@ -30,12 +30,12 @@ pub use report::{PlateAxis, PlateReport, SupportReport, Uncovered};
 
 use crate::mesh::{Box3, Mesh};
 use crate::options::Checked;
-use crate::polygon::PolygonSet;
+use crate::polygon::{DVec2, PolygonSet};
 use crate::region::Path;
 use crate::slice::{Axis, Gap, LayerSpec};
 use cover::Need;
 use frame::Frame;
-use plane::{Column, Demand, PlaneSection};
+use plane::{Column, Demand, Edge, PlaneSection};
 use plates::Plate;
 use points::SPoint;
 use section::Facets;
@@ -130,17 +130,62 @@ pub struct PlanePicture {
     pub section: PolygonSet,
     /// What is to be held, before gaps and cuts.
     pub support: PolygonSet,
+    /// The same were every downward surface held, wherever that stands: the paper's region.
+    pub at_zero: PolygonSet,
+    /// Edges above the bed that face down and lean past the overhang angle.
+    pub hanging: Vec<(DVec2, DVec2)>,
     /// The points of [Zhao].
     pub points: Vec<SPoint>,
 }
+
+/// Surfaces no higher than this lie on the bed, mm.
+const ON_BED_MM: f64 = 1e-3;
 
 /// The plane `axis = at` as the Learn view and `draw --plane` show it.
 pub fn examine_plane(mesh: &Mesh, options: &SupportOptions, axis: Axis, at: f64) -> PlanePicture {
     let facets = Facets::of(mesh, options);
     let cuts = section::sections(mesh, &facets, options, axis, &[at]);
-    let columns: Vec<Column> = cuts.iter().flat_map(|(s, _)| s.columns(demand(options, false))).collect();
+    let held = |demand: Demand| {
+        let columns: Vec<Column> = cuts.iter().flat_map(|(s, _)| s.columns(demand)).collect();
+        plane::region(&columns)
+    };
+    let edges = cuts.iter().flat_map(|(section, _)| &section.edges);
+    let hangs = |e: &&Edge| e.leans && e.to.x > e.from.x && e.from.y.max(e.to.y) > ON_BED_MM;
+    let hanging = edges.filter(hangs).map(|e| (e.from, e.to)).collect();
     let area = crate::slice::slice_mesh(mesh, axis, &[at], 0.0).into_iter().next().unwrap_or_default().area;
-    PlanePicture { points: points::s_points(&area), support: plane::region(&columns), section: area }
+    PlanePicture {
+        points: points::s_points(&area),
+        support: held(demand(options, false)),
+        at_zero: held(Demand { every: true, everywhere: true, internal: options.internal }),
+        hanging,
+        section: area,
+    }
+}
+
+/// One plate as a sheet without thickness, before gaps and cuts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sheet {
+    /// Normal of its plane.
+    pub axis: Axis,
+    /// Place of the plane, mm on the bed.
+    pub at: f64,
+    /// What it fills, (u, z) in mm: u is y in planes x = const, x in planes y = const.
+    pub area: PolygonSet,
+}
+
+/// The sheets of planned plates, those along x first.
+pub fn sheets(mesh: &Mesh, options: &SupportOptions, plates: &[PlateReport]) -> Vec<Sheet> {
+    let facets = Facets::of(mesh, options);
+    let of_axis = |axis: Axis| {
+        let own = plates.iter().filter(|p| p.axis == PlateAxis::of(axis));
+        let mut places: Vec<f64> = own.map(|p| p.at_mm).collect();
+        // Added planes come last in the report; sections are cut from low to high.
+        places.sort_by(f64::total_cmp);
+        let cuts = section::sections(mesh, &facets, options, axis, &places);
+        let area = |section: &PlaneSection| plane::region(&section.columns(demand(options, false)));
+        cuts.iter().zip(places).map(|((s, _), at)| Sheet { axis, at, area: area(s) }).collect::<Vec<_>>()
+    };
+    [Axis::X, Axis::Y].into_iter().flat_map(of_axis).collect()
 }
 
 fn demand(options: &SupportOptions, every: bool) -> Demand {

@@ -53,6 +53,15 @@ pub enum PlateAxis {
     Y,
 }
 
+impl From<PlateAxis> for Axis {
+    fn from(axis: PlateAxis) -> Axis {
+        match axis {
+            PlateAxis::X => Axis::X,
+            PlateAxis::Y => Axis::Y,
+        }
+    }
+}
+
 impl PlateAxis {
     pub(super) fn of(axis: Axis) -> PlateAxis {
         if axis == Axis::X { PlateAxis::X } else { PlateAxis::Y }

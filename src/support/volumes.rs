@@ -160,6 +160,17 @@ impl Descent {
         &self.region
     }
 
+    /// The components of S_k of the layer entered last, each with a mark; marks of one structure come to
+    /// the same number in [`Descent::structure_of`] once all layers were entered.
+    pub fn components(&self) -> impl Iterator<Item = (&Polygon, usize)> {
+        self.parts.iter().map(|part| (&part.island.polygon, part.node))
+    }
+
+    /// A number for the structure that a component belongs to.
+    pub fn structure_of(&mut self, mark: usize) -> usize {
+        self.structures.root(mark)
+    }
+
     /// The figures, once the layer on the bed has been entered.
     pub fn finish(self) -> SupportVolumes {
         let rules = self.rules;

@@ -2,13 +2,15 @@
 
 use std::fmt;
 
+use super::base_layer::teeth_items;
+use super::plane::PlaneDetail;
 use super::scene::Scene;
 use crate::gcode::LayerSummary;
 use crate::gcode::read::{self, ReadLayer};
 use crate::pipeline::{Clock, Job};
-use crate::polygon::measure::Bounds;
-use crate::polygon::{DVec2, dvec2};
+use crate::polygon::DVec2;
 use crate::slice::{Axis, slice_mesh};
+use crate::support::{PlanePicture, examine_plane};
 
 /// A plane that cannot be drawn.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,23 +52,30 @@ impl Scene {
         let sliced = job.slice(index, index + 1, clock);
         let layer = read_alone(sliced.texts.first()?, sliced.meta.summaries.first()?, job);
         let section = slice_mesh(job.mesh(), Axis::Z, &[spec.slice_z], 0.0).pop()?;
-        let [width, depth] = job.settings().printer.bed_size;
-        let bed = Bounds { min: DVec2::ZERO, max: dvec2(width, depth) };
-        Some(Scene::of_layer(&layer, bed, Some(&section.area)))
+        let mut scene = Scene::of_layer(&layer, job.bed(), Some(&section.area));
+        if index == 0 {
+            scene.items.extend(job.teeth_drawing().into_iter().flat_map(teeth_items));
+        }
+        Some(scene)
     }
 
-    /// The section of the job's parts by a vertical plane such as `y=12.5`, in bed coordinates.
+    /// The job's parts cut by a vertical plane such as `y=12.5`, in bed coordinates: section, what hangs,
+    /// S-, IO- and G-points, and what supports would fill.
     pub fn of_job_plane(job: &Job, plane: &str) -> Result<Scene, PlaneError> {
-        let (axis, at) =
-            parse_plane(plane).ok_or_else(|| PlaneError::NotAPlane { text: plane.to_owned() })?;
-        let area = slice_mesh(job.mesh(), axis, &[at], 0.0).pop().unwrap_or_default().area;
-        match job.mesh().bounds() {
-            Some(b) if area.is_empty() => {
-                let (low, high) = (axis.height(b.min), axis.height(b.max));
-                Err(PlaneError::Beside { text: plane.to_owned(), low, high })
-            }
-            _ => Ok(Scene::of_section(&area)),
+        Ok(Scene::of_plane(&examine_job_plane(job, plane)?, PlaneDetail::Region))
+    }
+}
+
+/// The plane of the job that `plane`, such as `y=12.5`, names.
+pub fn examine_job_plane(job: &Job, plane: &str) -> Result<PlanePicture, PlaneError> {
+    let (axis, at) = parse_plane(plane).ok_or_else(|| PlaneError::NotAPlane { text: plane.to_owned() })?;
+    let found = examine_plane(job.mesh(), &job.settings().support, axis, at);
+    match job.mesh().bounds() {
+        Some(b) if found.section.is_empty() => {
+            let (low, high) = (axis.height(b.min), axis.height(b.max));
+            Err(PlaneError::Beside { text: plane.to_owned(), low, high })
         }
+        _ => Ok(found),
     }
 }
 
@@ -82,7 +91,8 @@ fn read_alone(text: &[u8], summary: &LayerSummary, job: &Job) -> ReadLayer {
     file.layers.pop().unwrap_or(file.prelude)
 }
 
-fn parse_plane(text: &str) -> Option<(Axis, f64)> {
+/// Axis and place of a plane such as `y=12.5`.
+pub(super) fn parse_plane(text: &str) -> Option<(Axis, f64)> {
     let (name, at) = text.split_once('=')?;
     let axis = match name.trim() {
         "x" => Axis::X,

@@ -1,14 +1,20 @@
 //! Pictures: scenes of strokes and labels, made from what the stages give, written as SVG or
 //! painted by the wasm layer.
 
+pub mod base_layer;
 pub mod job;
 pub mod legend;
+pub mod lesson;
 pub mod model;
 pub mod moves;
+pub mod plane;
 pub mod scene;
 pub mod svg;
 
 pub use legend::{LegendEntry, legend};
+pub use lesson::Step;
 pub use model::{ModelPicture, Viewpoint};
 pub use moves::Moves;
-pub use scene::{Ink, Item, LineWidth, Scene};
+pub use plane::PlaneDetail;
+pub use scene::{Anchor, Ink, Item, LineWidth, Scene};
+pub use svg::Paper;

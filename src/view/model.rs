@@ -18,7 +18,7 @@ pub enum Viewpoint {
 
 impl Viewpoint {
     /// Unit vectors to the right, up and towards the eye.
-    fn frame(self) -> [DVec3; 3] {
+    pub(super) fn frame(self) -> [DVec3; 3] {
         match self {
             Viewpoint::Top => [DVec3::X, DVec3::Y, DVec3::Z],
             Viewpoint::Front => [DVec3::X, DVec3::Z, DVec3::NEG_Y],
@@ -82,6 +82,15 @@ impl ModelPicture {
     /// What the picture shows, mm on its plane.
     pub fn bounds(&self) -> Bounds {
         self.bounds
+    }
+
+    /// The whole model on an image of this size, see [`ModelPicture::render`].
+    pub fn fitted(&self, width: usize, height: usize, tint: [u8; 3]) -> Vec<u8> {
+        /// Share of the image that the model may take.
+        const FILL: f64 = 0.92;
+        let room = dvec2(width as f64, height as f64) / self.bounds.size().max(DVec2::splat(1e-6));
+        let camera = Camera { scale: FILL * room.min_element(), centre: self.bounds.centre(), width, height };
+        self.render(camera, tint)
     }
 
     /// RGBA pixels, row by row from the top; clear where nothing is seen. `tint` is the colour of a

@@ -24,52 +24,157 @@ pub enum Ink {
     Grid,
     /// Words.
     Text,
+    /// A line that explains, such as from a vertex to where it moves; dashed.
+    Guide,
+    /// The rail of teeth.
+    Rail,
+    /// The sides of a tooth.
+    Tooth,
+    /// A tooth's tip in the part.
+    Tip,
+    /// A tooth's tip beside the part.
+    TipOutside,
+    /// From the outline to a tooth's tip: the bite.
+    Bite,
+    /// A vertex.
+    Vertex,
+    /// A vertex that simplification drops.
+    DroppedVertex,
+    /// A stretch that hangs.
+    Hanging,
+    /// What supports fill in a vertical plane, or in a layer.
+    Held,
+    /// What they would fill if every downward surface were held.
+    HeldAtZero,
+    /// A thin plate seen from the front.
+    Sheet,
+    /// The plane that is looked at.
+    Plane,
+    /// S-point of type A [Zhao].
+    SPointA,
+    /// S-point of type B [Zhao].
+    SPointB,
+    /// IO-point [Zhao].
+    IoPoint,
+    /// G-point [Zhao].
+    GPoint,
+    /// The layer above.
+    Above,
+    /// The permissible overhang of the layer below.
+    Grown,
+    /// One of the structures of supports; colours repeat after six.
+    Structure(u8),
+    /// A cell as dark as its number is large, 0 to 10.
+    Share(u8),
+    /// What is chosen.
+    Chosen,
 }
 
 impl Ink {
-    /// The colour as `#rrggbb`. Roles have the colours that users of PrusaSlicer know, a little
-    /// darker on light ground.
+    /// The colour as `#rrggbb` or `#rrggbbaa`. Roles have the colours that users of PrusaSlicer know, a
+    /// little darker on light ground.
     pub const fn colour(self, dark: bool) -> &'static str {
+        let (light, on_dark) = self.colours();
+        if dark { on_dark } else { light }
+    }
+
+    const fn colours(self) -> (&'static str, &'static str) {
         match self {
-            Ink::Bead(role) => role_colour(role),
-            Ink::UnknownBead => "#8a8f98",
-            Ink::Travel => "#5b8fd9",
-            Ink::Outline => {
-                if dark {
-                    "#e8eaed"
-                } else {
-                    "#202124"
-                }
-            }
-            Ink::Part => {
-                if dark {
-                    "#3c4450"
-                } else {
-                    "#dde3ea"
-                }
-            }
-            Ink::Bed => {
-                if dark {
-                    "#7d8590"
-                } else {
-                    "#8c959f"
-                }
-            }
-            Ink::Grid => {
-                if dark {
-                    "#2d333b"
-                } else {
-                    "#e2e6ea"
-                }
-            }
-            Ink::Text => {
-                if dark {
-                    "#e8eaed"
-                } else {
-                    "#202124"
-                }
-            }
+            Ink::Bead(role) => (role_colour(role), role_colour(role)),
+            Ink::UnknownBead => ("#8a8f98", "#8a8f98"),
+            Ink::Travel => ("#5b8fd9", "#5b8fd9"),
+            Ink::Outline | Ink::Text | Ink::Vertex => ("#202124", "#e8eaed"),
+            Ink::Part => ("#dde3ea", "#3c4450"),
+            Ink::Bed => ("#8c959f", "#7d8590"),
+            Ink::Grid => ("#e2e6ea", "#2d333b"),
+            Ink::Guide => ("#6b7480", "#9aa5b1"),
+            Ink::Rail => ("#0b7d69", "#3fd0b4"),
+            Ink::Tooth => ("#0fae93", "#1fbfa3"),
+            Ink::Tip | Ink::GPoint => ("#1a56c4", "#7db1ff"),
+            Ink::TipOutside | Ink::Hanging => ("#d1242f", "#ff7b72"),
+            Ink::DroppedVertex => ("#d1242f", "#ff7b72"),
+            Ink::Bite => ("#e36209", "#ffa657"),
+            Ink::Held => ("#3fae4980", "#3fae4990"),
+            Ink::HeldAtZero => ("#3fae492e", "#3fae4938"),
+            Ink::Sheet => ("#2f9e4459", "#56d36466"),
+            Ink::Plane | Ink::SPointA => ("#c2185b", "#ff7eb6"),
+            Ink::SPointB => ("#8250df", "#d2a8ff"),
+            Ink::IoPoint => ("#e36209", "#ffa657"),
+            Ink::Above => ("#5b8fd966", "#79b0ff66"),
+            Ink::Grown => ("#e3b50566", "#e3b50566"),
+            Ink::Structure(index) => structure_colours(index),
+            Ink::Share(tenths) => (share_colour(tenths), share_colour(tenths)),
+            Ink::Chosen => ("#1a7f37", "#56d364"),
         }
+    }
+
+    /// Whether lines of this ink are dashed.
+    pub const fn is_dashed(self) -> bool {
+        matches!(self, Ink::Guide)
+    }
+
+    /// The word by which tests and style sheets find its things in an SVG picture.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Ink::Bead(role) => role.name(),
+            Ink::UnknownBead => "unknown",
+            Ink::Travel => "travel",
+            Ink::Outline => "outline",
+            Ink::Part => "part",
+            Ink::Bed => "bed",
+            Ink::Grid => "grid",
+            Ink::Text => "text",
+            Ink::Guide => "guide",
+            Ink::Rail => "rail",
+            Ink::Tooth => "tooth",
+            Ink::Tip => "tip",
+            Ink::TipOutside => "tip-outside",
+            Ink::Bite => "bite",
+            Ink::Vertex => "vertex",
+            Ink::DroppedVertex => "dropped-vertex",
+            Ink::Hanging => "hanging",
+            Ink::Held => "held",
+            Ink::HeldAtZero => "held-at-zero",
+            Ink::Sheet => "sheet",
+            Ink::Plane => "plane",
+            Ink::SPointA => "s-point-a",
+            Ink::SPointB => "s-point-b",
+            Ink::IoPoint => "io-point",
+            Ink::GPoint => "g-point",
+            Ink::Above => "above",
+            Ink::Grown => "grown",
+            Ink::Structure(_) => "structure",
+            Ink::Share(_) => "share",
+            Ink::Chosen => "chosen",
+        }
+    }
+}
+
+const fn structure_colours(index: u8) -> (&'static str, &'static str) {
+    match index % 6 {
+        0 => ("#3fae49b3", "#3fae49b3"),
+        1 => ("#5b8fd9b3", "#5b8fd9b3"),
+        2 => ("#e3a008b3", "#e3b505b3"),
+        3 => ("#c2185bb3", "#ff7eb6b3"),
+        4 => ("#8250dfb3", "#d2a8ffb3"),
+        _ => ("#0b8f78b3", "#3fd0b4b3"),
+    }
+}
+
+/// From green for little to red for much.
+const fn share_colour(tenths: u8) -> &'static str {
+    match tenths {
+        0 => "#2da44e80",
+        1 => "#57ab5a80",
+        2 => "#81b85080",
+        3 => "#a9c14780",
+        4 => "#cfc63f80",
+        5 => "#e3b93980",
+        6 => "#e8a13a80",
+        7 => "#e9873b80",
+        8 => "#e66d3c80",
+        9 => "#e0523e80",
+        _ => "#d9383f80",
     }
 }
 
@@ -126,13 +231,33 @@ pub enum Item {
         /// Colour.
         ink: Ink,
     },
-    /// A few words beside a point.
-    Label {
-        /// Where the words start, mm.
+    /// A round mark of the same size at every scale.
+    Dot {
+        /// Its middle, mm.
         at: DVec2,
-        /// The words.
-        text: String,
+        /// Radius, pixels.
+        radius_px: f64,
+        /// Colour.
+        ink: Ink,
     },
+    /// A letter or a number at a point.
+    Label {
+        /// The point, mm.
+        at: DVec2,
+        /// What is written.
+        text: String,
+        /// Which part of the text is at the point.
+        anchor: Anchor,
+    },
+}
+
+/// Where a label stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Anchor {
+    /// To the right of its point and above, clear of a dot there.
+    Beside,
+    /// Around its point.
+    Middle,
 }
 
 /// Things to draw, farthest first, and the box to show.
@@ -163,14 +288,6 @@ impl Scene {
         }
         items.extend(outline.into_iter().flat_map(outline_items));
         Scene { items, bounds: shown.unwrap_or(bed).grown(MARGIN) }
-    }
-
-    /// A section of the part, such as a vertical plane.
-    pub fn of_section(area: &PolygonSet) -> Scene {
-        let mut items = vec![Item::Area { area: area.clone(), ink: Ink::Part }];
-        items.extend(outline_items(area));
-        let nothing = Bounds { min: DVec2::ZERO, max: DVec2::ONE };
-        Scene { items, bounds: area.bounds().unwrap_or(nothing).grown(MARGIN) }
     }
 }
 

@@ -2,17 +2,46 @@
 
 use std::fmt::Write;
 
-use super::scene::{Item, LineWidth, Scene};
+use super::scene::{Anchor, Ink, Item, LineWidth, Scene};
 use crate::polygon::{DVec2, PolygonSet};
 
-/// Longer side of the picture, pixels.
-const PICTURE_PX: f64 = 1000.0;
+/// What a picture is made for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Paper {
+    /// Longer side of the picture, pixels: letters and marks keep their size on it.
+    pub side_px: f64,
+    /// Colours for dark ground.
+    pub dark: bool,
+    /// Whether the ground is painted; without, the page shows through.
+    pub ground: bool,
+}
+
+impl Paper {
+    /// A file of its own: 1000 pixels on white ground.
+    pub const FILE: Paper = Paper { side_px: 1000.0, dark: false, ground: true };
+
+    /// A picture within a page.
+    pub const fn inline(side_px: f64, dark: bool) -> Paper {
+        Paper { side_px, dark, ground: false }
+    }
+}
+
+/// Height of letters, pixels.
+pub const TEXT_PX: f64 = 14.0;
+
+/// How far a letter beside a point keeps from it to the right and above, pixels.
+pub const BESIDE_PX: f64 = 6.0;
 
 impl Scene {
     /// The scene as a self-contained SVG file on light ground.
     pub fn to_svg(&self) -> String {
+        self.to_svg_on(Paper::FILE)
+    }
+
+    /// The scene as SVG text for `paper`. Every element's class is its ink's name.
+    pub fn to_svg_on(&self, paper: Paper) -> String {
         let size = self.bounds.size();
-        let scale = PICTURE_PX / size.max_element();
+        let scale = paper.side_px / size.max_element();
         let (width, height) = (size.x * scale, size.y * scale);
         let (left, top) = (self.bounds.min.x, -self.bounds.max.y);
         let mut svg = format!(
@@ -20,49 +49,89 @@ impl Scene {
              viewBox=\"{left:.4} {top:.4} {:.4} {:.4}\">\n",
             size.x, size.y
         );
-        let _ = writeln!(
-            svg,
-            "<rect x=\"{left:.4}\" y=\"{top:.4}\" width=\"{:.4}\" height=\"{:.4}\" fill=\"#fff\"/>",
-            size.x, size.y
-        );
+        if paper.ground {
+            let _ = writeln!(
+                svg,
+                "<rect x=\"{left:.4}\" y=\"{top:.4}\" width=\"{:.4}\" height=\"{:.4}\" fill=\"#fff\"/>",
+                size.x, size.y
+            );
+        }
         svg.push_str("<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n");
         for item in &self.items {
-            write_item(&mut svg, item, scale);
+            write_item(&mut svg, item, scale, paper.dark);
         }
         svg.push_str("</g>\n</svg>\n");
         svg
     }
 }
 
-fn write_item(svg: &mut String, item: &Item, scale: f64) {
-    match item {
+fn write_item(svg: &mut String, item: &Item, scale: f64, dark: bool) {
+    // Writing to a string cannot fail.
+    let _ = match item {
         Item::Stroke { points, closed, width, ink } => {
             let width = match width {
                 LineWidth::Mm(mm) => *mm,
                 LineWidth::Px(px) => px / scale,
             };
-            let colour = ink.colour(false);
-            let _ = writeln!(
+            let dash = if ink.is_dashed() {
+                format!(" stroke-dasharray=\"{:.4}\"", DASH_PX / scale)
+            } else {
+                String::new()
+            };
+            writeln!(
                 svg,
-                "<path d=\"{}\" stroke=\"{colour}\" stroke-width=\"{width:.4}\"/>",
-                path_data(points, *closed)
-            );
+                "<path class=\"{}\" d=\"{}\" stroke=\"{}\" stroke-width=\"{width:.4}\"{dash}/>",
+                ink.name(),
+                path_data(points, *closed),
+                ink.colour(dark)
+            )
         }
-        Item::Area { area, ink } => {
-            let colour = ink.colour(false);
-            let _ =
-                writeln!(svg, "<path d=\"{}\" fill=\"{colour}\" fill-rule=\"evenodd\"/>", area_data(area));
-        }
-        Item::Label { at, text } => {
-            let size = 14.0 / scale;
-            let text = text.replace('&', "&amp;").replace('<', "&lt;");
-            let _ = writeln!(
-                svg,
-                "<text x=\"{:.4}\" y=\"{:.4}\" font-family=\"sans-serif\" font-size=\"{size:.4}\" fill=\"#202124\">{text}</text>",
-                at.x, -at.y
-            );
-        }
-    }
+        Item::Area { area, ink } => writeln!(
+            svg,
+            "<path class=\"{}\" d=\"{}\" fill=\"{}\" fill-rule=\"evenodd\"/>",
+            ink.name(),
+            area_data(area),
+            ink.colour(dark)
+        ),
+        Item::Dot { at, radius_px, ink } => writeln!(
+            svg,
+            "<circle class=\"{}\" cx=\"{:.4}\" cy=\"{:.4}\" r=\"{:.4}\" fill=\"{}\"/>",
+            ink.name(),
+            at.x,
+            -at.y,
+            radius_px / scale,
+            ink.colour(dark)
+        ),
+        Item::Label { at, text, anchor } => write_label(svg, *at, text, *anchor, scale, dark),
+    };
+}
+
+/// Length of a dash and of the gap behind it, pixels.
+pub const DASH_PX: f64 = 4.0;
+
+fn write_label(
+    svg: &mut String,
+    at: DVec2,
+    text: &str,
+    anchor: Anchor,
+    scale: f64,
+    dark: bool,
+) -> std::fmt::Result {
+    let (right, up, side) = match anchor {
+        Anchor::Beside => (BESIDE_PX, BESIDE_PX, "start"),
+        // A third of the height brings digits to the middle.
+        Anchor::Middle => (0.0, -TEXT_PX / 3.0, "middle"),
+    };
+    let text = text.replace('&', "&amp;").replace('<', "&lt;");
+    writeln!(
+        svg,
+        "<text class=\"text\" x=\"{:.4}\" y=\"{:.4}\" text-anchor=\"{side}\" font-family=\"sans-serif\" \
+         font-size=\"{:.4}\" fill=\"{}\">{text}</text>",
+        at.x + right / scale,
+        -at.y - up / scale,
+        TEXT_PX / scale,
+        Ink::Text.colour(dark)
+    )
 }
 
 fn area_data(area: &PolygonSet) -> String {

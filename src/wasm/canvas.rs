@@ -1,11 +1,13 @@
 //! Paints scenes through web-sys.
 
+use js_sys::Array;
 use wasm_bindgen::{Clamped, JsValue};
 use web_sys::{CanvasRenderingContext2d, ImageData};
 
 use crate::polygon::{DVec2, dvec2};
 use crate::view::model::Camera;
-use crate::view::{Ink, Item, LineWidth, ModelPicture, Scene};
+use crate::view::svg::{BESIDE_PX, DASH_PX, TEXT_PX};
+use crate::view::{Anchor, Ink, Item, LineWidth, ModelPicture, Scene};
 
 /// What part of the plane is shown on how many pixels.
 pub(super) struct View {
@@ -29,7 +31,7 @@ impl View {
 }
 
 /// Fully lit faces of a model.
-const MODEL_TINT: [u8; 3] = [122, 166, 214];
+pub(super) const MODEL_TINT: [u8; 3] = [122, 166, 214];
 
 /// Paints strokes, areas and labels over a cleared canvas.
 pub(super) fn paint_scene(
@@ -65,6 +67,9 @@ fn paint_item(context: &CanvasRenderingContext2d, item: &Item, view: &View) -> R
                 LineWidth::Mm(mm) => *mm,
                 LineWidth::Px(px) => px * view.ratio / view.scale,
             });
+            let dash = if ink.is_dashed() { DASH_PX * view.ratio / view.scale } else { 0.0 };
+            let pattern = if dash > 0.0 { Array::of2(&dash.into(), &dash.into()) } else { Array::new() };
+            context.set_line_dash(&pattern)?;
             context.stroke();
         }
         Item::Area { area, ink } => {
@@ -75,13 +80,26 @@ fn paint_item(context: &CanvasRenderingContext2d, item: &Item, view: &View) -> R
             context.set_fill_style_str(ink.colour(view.dark));
             context.fill();
         }
-        Item::Label { at, text } => {
+        Item::Dot { at, radius_px, ink } => {
+            context.begin_path();
+            let radius = radius_px * view.ratio / view.scale;
+            context.arc(at.x, at.y, radius, 0.0, std::f64::consts::TAU)?;
+            context.set_fill_style_str(ink.colour(view.dark));
+            context.fill();
+        }
+        Item::Label { at, text, anchor } => {
             context.save();
             context.translate(at.x, at.y)?;
             context.scale(view.ratio / view.scale, -view.ratio / view.scale)?;
-            context.set_font("14px sans-serif");
+            context.set_font(&format!("{TEXT_PX}px sans-serif"));
             context.set_fill_style_str(Ink::Text.colour(view.dark));
-            context.fill_text(text, 0.0, 0.0)?;
+            match anchor {
+                Anchor::Beside => context.fill_text(text, BESIDE_PX, -BESIDE_PX)?,
+                Anchor::Middle => {
+                    context.set_text_align("center");
+                    context.fill_text(text, 0.0, TEXT_PX / 3.0)?;
+                }
+            }
             context.restore();
         }
     }

@@ -4,9 +4,10 @@ use wasm_bindgen::prelude::*;
 
 use super::convert::{Thrown, internal_error, job_error, matrices_from, now, settings_from, usage_error};
 use super::model::Model;
+use super::study;
 use crate::gcode::Piece;
 use crate::pipeline::{self, Finished, NamedModel, RangeMeta, RangeResult, Share};
-use crate::view::Scene;
+use crate::view::{Paper, Scene};
 
 /// One slicing job; lives in the lead engine.
 #[wasm_bindgen]
@@ -98,6 +99,28 @@ impl Job {
         Ok(Scene::of_job_plane(self.inner()?, plane).map_err(usage_error)?.to_svg())
     }
 
+    /// Every kind of base layer with its picture, and which suits, as JSON (`BaseLayers` in
+    /// `messages.ts`). Pictures are `side` CSS pixels long, for dark ground or light.
+    pub fn base_layers(&self, side: f64, dark: bool) -> Result<String, Thrown> {
+        study::base_layers(self.inner()?, Paper::inline(side, dark))
+    }
+
+    /// A plane with its figures, as JSON (`PlaneStudy`).
+    pub fn plane(&self, plane: &str, side: f64, dark: bool) -> Result<String, Thrown> {
+        study::plane(self.inner()?, plane, Paper::inline(side, dark))
+    }
+
+    /// The plates of `support.method` plates as sheets without thickness, as JSON (`Sheet[]`).
+    pub fn sheets(&self) -> Result<String, Thrown> {
+        study::sheets_of(self.inner()?)
+    }
+
+    /// The steps of a lesson, "teeth", "plates" or "features", as JSON (`LessonStep[]`). `at` is a
+    /// plane such as `y=12.5`, a layer counted from 1, or empty for one that shows much.
+    pub fn lesson(&self, lesson: &str, at: &str, side: f64, dark: bool) -> Result<String, Thrown> {
+        study::lesson(self.inner()?, lesson, at, Paper::inline(side, dark))
+    }
+
     fn inner(&self) -> Result<&pipeline::Job, Thrown> {
         self.inner.as_ref().ok_or_else(|| internal_error("the job is over"))
     }
@@ -168,6 +191,12 @@ impl JobResult {
     /// Seconds that each layer takes, from its first to its last stop.
     pub fn layer_times(&self) -> Vec<f64> {
         self.inner.layer_times_s.clone()
+    }
+
+    /// Marks for the picture of the first layer, for `Scene.layer`; empty without teeth.
+    pub fn marks(&self) -> Result<Vec<u8>, Thrown> {
+        let bytes = self.inner.teeth.as_ref().map(postcard::to_allocvec).transpose();
+        Ok(bytes.map_err(internal_error)?.unwrap_or_default())
     }
 
     /// A name for the file.

@@ -10,6 +10,7 @@ mod model;
 mod moves;
 mod printer;
 mod scene;
+mod study;
 
 pub use convert::Thrown;
 pub use job::{Chunk, Job, JobResult, slice_share};
@@ -17,6 +18,7 @@ pub use model::{Model, ModelReader, SharedMesh, arrange_parts, parts_picture};
 pub use moves::{Moves, role_colours};
 pub use printer::{Outline, Printer};
 pub use scene::Scene;
+pub use study::orientation_lesson;
 
 use wasm_bindgen::prelude::*;
 

@@ -1,14 +1,15 @@
 //! Reading and looking at models.
 
-use wasm_bindgen::prelude::*;
-
 use glam::{DMat4, DVec3};
+use wasm_bindgen::prelude::*;
 
 use super::convert::{
     Thrown, fit_error, internal_error, matrices_from, matrix_from, model_error, now, orientation_error,
     settings_from, usage_error,
 };
+use super::canvas::MODEL_TINT;
 use super::scene::Scene;
+use crate::mesh::transform::rotation_to_up;
 use crate::mesh::{Box3, Edit, LoadedModel, Mesh, StlReader, bounds_under, edited};
 use crate::orientation::{
     Direction, DirectionFigures, OrientationOptions, OrientationReport, candidates, choose, evaluate,
@@ -95,6 +96,15 @@ impl Model {
         let mesh = &self.inner.mesh;
         let placed = edited(mesh, &matrix_from(placement)?, edit).map_err(usage_error)?;
         Ok(matrix_and_box(mesh, &placed))
+    }
+
+    /// The model with `up` (three numbers) turned up, seen from the front left above: RGBA pixels, row by
+    /// row from the top, clear where nothing is seen.
+    pub fn thumbnail(&self, up: &[f64], width: usize, height: usize) -> Result<Vec<u8>, Thrown> {
+        let &[x, y, z] = up else { return Err(usage_error("up: three numbers are needed")) };
+        let turn = rotation_to_up(DVec3::new(x, y, z).normalize_or(DVec3::Z));
+        let turned = self.inner.mesh.transformed(&turn).map_err(internal_error)?;
+        Ok(ModelPicture::new(&turned, Viewpoint::Iso).fitted(width, height, MODEL_TINT))
     }
 
     /// The directions to compare, x, y, z of the vector that points up for id 1, 2 and so on: the

@@ -5,9 +5,11 @@ use web_sys::CanvasRenderingContext2d;
 
 use super::canvas::{self, View};
 use super::convert::{Thrown, internal_error, settings_from};
+use crate::adhesion::TeethDrawing;
 use crate::gcode::read;
 use crate::polygon::measure::Bounds;
 use crate::polygon::{DVec2, dvec2};
+use crate::view::base_layer::teeth_items;
 use crate::view::{self, ModelPicture};
 
 /// A picture of a layer or a model.
@@ -29,14 +31,20 @@ impl Scene {
 
 #[wasm_bindgen]
 impl Scene {
-    /// A layer as its G-code says; `settings` is JSON and tells the bed and the filament.
-    pub fn layer(gcode: &[u8], settings: &str) -> Result<Scene, Thrown> {
+    /// A layer as its G-code says; `settings` is JSON and tells the bed and the filament. `marks` are those
+    /// of `Result.marks` on the first layer, else empty.
+    pub fn layer(gcode: &[u8], settings: &str, marks: &[u8]) -> Result<Scene, Thrown> {
         let settings = settings_from(settings)?;
         let mut file = read::read(gcode, settings.filament.diameter);
         let layer = file.layers.pop().unwrap_or(file.prelude);
         let [width, depth] = settings.printer.bed_size;
         let bed = Bounds { min: DVec2::ZERO, max: dvec2(width, depth) };
-        Ok(Scene { inner: Picture::Layer(view::Scene::of_layer(&layer, bed, None), layer) })
+        let mut scene = view::Scene::of_layer(&layer, bed, None);
+        if !marks.is_empty() {
+            let teeth: TeethDrawing = postcard::from_bytes(marks).map_err(internal_error)?;
+            scene.items.extend(teeth_items(&teeth));
+        }
+        Ok(Scene { inner: Picture::Layer(scene, layer) })
     }
 
     /// What is shown, as JSON: a list of `{role, color, length_mm}`.

@@ -19,15 +19,18 @@ use windows::Window;
 
 use super::clip::{Line, to_box};
 use super::error::{AdhesionError, AdhesionWarning, WarningCode};
-use super::ground::Ground;
+use super::ground::{Ground, grown};
 use super::options::{Placement, TeethOptions};
 use super::segments::{Segment, Segments};
 use super::{FirstLayer, Foundation, TeethFigures};
 use crate::polygon::{DVec2, Join, PolygonSet, by_x_then_y};
 use crate::region::{Path, Role};
 
+/// By how much crowded rails may be off, mm: a tenth of what a bite may.
+const RAIL_TOLERANCE_MM: f64 = 0.002;
+
 /// One tooth: the path leaves the rail at `a`, turns at `tip` and returns to the rail at `b`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Tooth {
     /// Where the path leaves the rail (A_i of eq. 15).
     pub a: DVec2,
@@ -44,7 +47,7 @@ pub struct Tooth {
 }
 
 /// What the layer canvas and the Learn view draw.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct TeethDrawing {
     /// The printed outline that everything is measured to (supports included).
     pub outline: PolygonSet,
@@ -74,7 +77,7 @@ pub(super) fn teeth(
 ) -> Result<Foundation, AdhesionError> {
     check(options)?;
     let site = Site::new(&ground.area, first.bed, first.line_width, options);
-    let offset = ground.area.offset(options.offset, Join::WALL);
+    let offset = grown(&ground.area, options.offset, Join::WALL, RAIL_TOLERANCE_MM);
     let placement = match options.placement {
         Placement::AlongContour => along_contour::place(&site, &offset),
         Placement::PerEdge => along_contour::Placement::all(per_edge::place(&site, &offset)),
@@ -151,7 +154,7 @@ fn extra_rails(first: &FirstLayer, site: &Site, rails: &[(Rail, Vec<PlacedTooth>
     let index = Segments::new(edges.collect(), first.line_width.max(1.0));
     let loops = |k: u32| {
         let farther = f64::from(k) * first.line_width;
-        let set = site.area.offset(site.options.offset + farther, Join::WALL);
+        let set = grown(site.area, site.options.offset + farther, Join::WALL, RAIL_TOLERANCE_MM);
         // A mitred corner of a loop is up to twice as far from its rail as the loop's edges.
         let beside = |p: &DVec2| index.nearest(*p, 2.0 * farther + first.line_width).is_some();
         let kept = set.into_contours().into_iter().filter(|c| c.points.iter().all(beside));
