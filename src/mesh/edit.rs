@@ -34,6 +34,11 @@ pub enum Edit {
         /// The axis.
         axis: usize,
     },
+    /// Turns the part so that a direction of its file points up.
+    TurnUp {
+        /// The direction, of any length but 0.
+        up: [f64; 3],
+    },
     /// Turns the part so that a face lies on the bed.
     LayFlat {
         /// Index of the face's triangle.
@@ -74,6 +79,10 @@ fn change_of(mesh: &Mesh, placement: &DMat4, edit: Edit) -> Option<DMat4> {
         Edit::Turn { axis: 2, angle_deg } => Some(rotation_z(angle_deg)),
         Edit::Scale { factors } if factors.iter().all(|f| *f > 0.0) => Some(scaling(DVec3::from(factors))),
         Edit::Mirror { axis } if axis < 3 => Some(mirror(axis)),
+        Edit::TurnUp { up } => {
+            let now = placement.transform_vector3(DVec3::from(up)).try_normalize()?;
+            Some(rotation_to_up(now))
+        }
         Edit::LayFlat { triangle } => Some(rotation_to_up(-normal_under(mesh, placement, triangle)?)),
         Edit::Turn { .. } | Edit::Scale { .. } | Edit::Mirror { .. } => None,
     }
@@ -122,6 +131,16 @@ mod tests {
         assert_eq!(stands_at(&mesh, &turned), ([101.0, 52.0], 0.0));
         let back = edited(&mesh, &turned, Edit::Turn { axis: 0, angle_deg: -90.0 }).unwrap();
         assert_eq!(back, translation(dvec3(100.0, 50.0, 0.0)));
+    }
+
+    #[test]
+    fn a_direction_of_the_file_comes_to_the_top_however_the_part_stands() {
+        let mesh = wedge();
+        let at = edited(&mesh, &DMat4::IDENTITY, Edit::Turn { axis: 0, angle_deg: 90.0 }).unwrap();
+        let turned = edited(&mesh, &at, Edit::TurnUp { up: [3.0, 0.0, 0.0] }).unwrap();
+        assert!((turned.transform_vector3(DVec3::X) - DVec3::Z).length() < 1e-12);
+        assert!((size(&mesh, &turned)[2] - 2.0).abs() < 1e-6);
+        assert!(edited(&mesh, &at, Edit::TurnUp { up: [0.0; 3] }).is_err());
     }
 
     #[test]

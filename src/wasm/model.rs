@@ -3,11 +3,11 @@
 use glam::{DMat4, DVec3};
 use wasm_bindgen::prelude::*;
 
+use super::canvas::MODEL_TINT;
 use super::convert::{
     Thrown, fit_error, internal_error, matrices_from, matrix_from, model_error, now, orientation_error,
     settings_from, usage_error,
 };
-use super::canvas::MODEL_TINT;
 use super::scene::Scene;
 use crate::mesh::transform::rotation_to_up;
 use crate::mesh::{Box3, Edit, LoadedModel, Mesh, StlReader, bounds_under, edited};

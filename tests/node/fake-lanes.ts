@@ -150,5 +150,6 @@ function joined(layers: number): Omit<Extract<LeadReply, { kind: 'finish' }>, 'k
     glue: encoder.encode('<|>'),
     pieces: Uint32Array.from(pieces),
     times: new Float64Array(layers),
+    marks: new Uint8Array(),
   };
 }

@@ -1,5 +1,6 @@
 // The one list of what the page (or the command line) and the lanes that run the engine say to each other.
 // A lane answers each request with a reply of the same kind, or with a failure.
+import type { Question } from './studies.ts';
 
 /** Layers `first` to `last`, without `last`. */
 export interface Range {
@@ -58,7 +59,8 @@ export type Edit =
   | { readonly kind: 'turn'; readonly axis: number; readonly angle_deg: number }
   | { readonly kind: 'scale'; readonly factors: readonly [number, number, number] }
   | { readonly kind: 'mirror'; readonly axis: number }
-  | { readonly kind: 'lay_flat'; readonly triangle: number };
+  | { readonly kind: 'lay_flat'; readonly triangle: number }
+  | { readonly kind: 'turn_up'; readonly up: readonly number[] };
 
 /** Requests to the lead lane, which holds the models and the job. */
 export type LeadRequest =
@@ -95,6 +97,18 @@ export type LeadRequest =
   | { readonly kind: 'mesh'; readonly model: number }
   | { readonly kind: 'compare' }
   | { readonly kind: 'picture'; readonly view: PictureView; readonly standing?: Standing | undefined }
+  | {
+      readonly kind: 'study';
+      readonly settings: string;
+      readonly question: Question;
+      readonly standing?: Standing | undefined;
+    }
+  | {
+      readonly kind: 'thumbnail';
+      readonly up: readonly number[];
+      readonly width: number;
+      readonly height: number;
+    }
   | { readonly kind: 'paint'; readonly camera: CameraNumbers; readonly theme: Theme };
 
 export type LeadReply =
@@ -119,6 +133,9 @@ export type LeadReply =
   | { readonly kind: 'choose'; readonly report: string }
   | { readonly kind: 'mesh'; readonly mesh: Uint8Array }
   | { readonly kind: 'compare'; readonly report: string }
+  | { readonly kind: 'study'; readonly answer: string }
+  /** RGBA, row by row from the top. */
+  | { readonly kind: 'thumbnail'; readonly pixels: Uint8Array }
   | { readonly kind: 'picture'; readonly bounds: Bounds }
   | { readonly kind: 'paint'; readonly bitmap: ImageBitmap };
 
@@ -147,6 +164,8 @@ export interface Joined {
   readonly pieces: Uint32Array;
   /** Seconds that each layer takes. */
   readonly times: Float64Array;
+  /** What the picture of the first layer shows besides its paths. */
+  readonly marks: Uint8Array;
 }
 
 /** Requests to a helper lane, which keeps nothing between them but the mesh whose directions it evaluates. */
@@ -175,7 +194,7 @@ export interface Moves {
 export type ViewRequest =
   | { readonly kind: 'canvas'; readonly canvas: OffscreenCanvas }
   | { readonly kind: 'roles' }
-  | { readonly kind: 'layer'; readonly text: Uint8Array; readonly settings: string }
+  | { readonly kind: 'layer'; readonly text: Uint8Array; readonly settings: string; readonly marks: Uint8Array }
   | { readonly kind: 'moves'; readonly text: Uint8Array; readonly settings: string }
   | { readonly kind: 'paint'; readonly camera: CameraNumbers; readonly theme: Theme };
 

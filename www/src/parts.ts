@@ -53,6 +53,15 @@ export function sizeOf({ box }: Part): readonly [number, number, number] {
   return [at(box, 3) - at(box, 0), at(box, 4) - at(box, 1), at(box, 5) - at(box, 2)];
 }
 
+/** The box around all parts: lowest x y z, highest x y z, mm; undefined without parts. */
+export function extentOf(parts: readonly Part[]): readonly number[] | undefined {
+  const [first, ...others] = parts.map(({ box }) => box);
+  return others.reduce(
+    (all, box) => all?.map((value, k) => (k < 3 ? Math.min(value, at(box, k)) : Math.max(value, at(box, k)))),
+    first,
+  );
+}
+
 /** How much larger than in its file the part is, as the edge of a cube of its volume would be. */
 export function scaleOf({ matrix: m }: Part): number {
   const cofactor = (a: number, b: number, c: number, d: number): number => at(m, a) * at(m, b) - at(m, c) * at(m, d);

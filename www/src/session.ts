@@ -1,8 +1,9 @@
 // The flow of work, as plain functions over the state: open, place, slice, cancel, show, download.
-import type { Report } from './generated/report.ts';
+import type { OrientationReport, Report } from './generated/report.ts';
 import { planOf, redone, undone } from './history.ts';
 import { t } from './i18n/text.ts';
 import type { Kept } from './keep.ts';
+import { placeIn } from './lesson/steps.ts';
 import type { Edit, ModelSource } from './messages.ts';
 import { asStanding, atFreeSpot, freeId, movedTo, type Part, standing, UNMOVED } from './parts.ts';
 import { asChanges, asSettings } from './settings/changes.ts';
@@ -10,7 +11,7 @@ import { allFields, roomOf } from './settings/room.ts';
 import { EngineError, isCancel } from './slicer/errors.ts';
 import { partsOf } from './slicer/gcode.ts';
 import type { Opened, Pool } from './slicer/pool.ts';
-import { fetched, lastPart, namedModel } from './source.ts';
+import { fetched, lastPart, namedModel, SAMPLE } from './source.ts';
 import {
   type ModelFacts,
   noPlan,
@@ -21,6 +22,7 @@ import {
   type Step,
   type Store,
 } from './state.ts';
+import type { Lesson, LessonStep, Question } from './studies.ts';
 import { canDrawSpace } from './view/webgl.ts';
 
 /** The model that lies beside the page, for visitors who bring none. */
@@ -48,8 +50,14 @@ export class Session {
   /** Opens what the page's address names, or what was open last, or the sample; the sample is sliced at once. */
   async start(address: string, kept: Kept | undefined): Promise<void> {
     try {
-      const named = namedModel(address);
-      if (named !== undefined) return await this.open([await fetched(named, lastPart(named))]);
+      const linked = placeIn(address);
+      if (linked !== undefined) this.#store.update(linked);
+      const named = namedModel(address) ?? (linked === undefined ? undefined : SAMPLE);
+      if (named !== undefined) {
+        await this.open([await fetched(named, lastPart(named))]);
+        if (linked !== undefined) this.#store.update({ step: 'learn' });
+        return;
+      }
       // The visitor may be at another step by now, and stays there.
       if (kept !== undefined) await this.#open(kept.sources, this.#store.state.step, kept);
       if (this.#store.state.model.kind === 'open') return;
@@ -207,6 +215,48 @@ export class Session {
     saveFile(new Blob([text], { type: 'application/json' }), 'foothold-settings.json');
   }
 
+  /** Asks the engine about the open models with the settings of the form; the answer is JSON. */
+  async study<T>(question: Question): Promise<T> {
+    const settings = await this.#settings();
+    const { parts, arranged } = this.#store.state;
+    return JSON.parse(await this.#pool.study(settings, question, asStanding(parts, arranged))) as T;
+  }
+
+  /** The steps of a lesson on the open model; the one about orientation compares the six directions first. */
+  async lesson(lesson: Lesson, at: string, side: number, dark: boolean): Promise<readonly LessonStep[]> {
+    if (lesson !== 'orientation') return await this.study({ about: 'lesson', lesson, at, side, dark });
+    const six = { 'orientation.hull_directions': 0 };
+    const settings = await this.#pool.settings([asSettings({ ...this.#store.state.changes, ...six })], []);
+    const report = await this.#pool.orient({ settings });
+    return await this.study({ about: 'orientation', report, side, dark });
+  }
+
+  /** Compares the directions of the first model; undefined when `signal` ends it. */
+  async orient(
+    signal: AbortSignal,
+    progress: (done: number, total: number) => void,
+  ): Promise<OrientationReport | Problem | undefined> {
+    try {
+      const settings = await this.#settings();
+      const report = await this.#pool.orient({
+        settings,
+        signal,
+        progress: ({ done, total }) => progress(done, total),
+      });
+      return JSON.parse(report) as OrientationReport;
+    } catch (error) {
+      return isCancel(error) ? undefined : problemOf(error);
+    } finally {
+      this.#pool.ready().catch(() => undefined);
+    }
+  }
+
+  /** The first model with `up` turned up. */
+  async thumbnail(up: readonly number[], width: number, height: number): Promise<ImageData> {
+    const pixels = await this.#pool.thumbnail(up, width, height);
+    return new ImageData(new Uint8ClampedArray(pixels), width, height);
+  }
+
   cancel(): void {
     this.#job?.abort();
   }
@@ -223,6 +273,11 @@ export class Session {
     if (result === undefined) return;
     const last = result.gcode.layers.length - 1;
     this.#store.update({ step: step === 'prepare' ? 'preview' : step, layer: Math.min(Math.max(layer, 0), last) });
+  }
+
+  /** All settings as JSON. */
+  #settings(): Promise<string> {
+    return this.#pool.settings([asSettings(this.#store.state.changes)], []);
   }
 
   async #sliced(

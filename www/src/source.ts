@@ -2,6 +2,9 @@
 import { t } from './i18n/text.ts';
 import type { ModelSource } from './messages.ts';
 
+/** The model that comes with the page. */
+export const SAMPLE = 'sample.stl';
+
 export class SourceError extends Error {
   override name = 'ModelError';
 }

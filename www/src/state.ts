@@ -2,6 +2,7 @@
 import type { Report } from './generated/report.ts';
 import { type History, noHistory, planOf, recorded, samePlan } from './history.ts';
 import type { Language } from './i18n/text.ts';
+import { firstPlace, type Place } from './lesson/steps.ts';
 import type { LegendEntry, ModelSource, PictureView } from './messages.ts';
 import type { Part } from './parts.ts';
 import type { ThemeChoice } from './preferences.ts';
@@ -82,6 +83,8 @@ export interface State {
   /** Why the last change of the parts did not come about. */
   readonly trouble: Problem | undefined;
   readonly step: Step;
+  /** Where the visitor is in the lessons. */
+  readonly place: Place;
   readonly side: PictureView;
   /** The layer shown, from 0. */
   readonly layer: number;
@@ -116,6 +119,7 @@ export const initial: State = {
   history: noHistory,
   trouble: undefined,
   step: 'prepare',
+  place: firstPlace,
   side: 'iso',
   layer: 0,
   legend: [],

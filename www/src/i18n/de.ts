@@ -1,6 +1,7 @@
 // The words of the page in German.
 import type { Words } from './en.ts';
 import { formats, unitSign } from './format.ts';
+import { panels } from './panels/de.ts';
 import { print } from './print.de.ts';
 
 const format = formats('de', ['h', 'min', 's']);
@@ -161,6 +162,7 @@ export const de: Words = {
     unit: unitSign,
   },
   printing: print,
+  panels,
   problem: {
     ModelError: {
       title: 'Dieses Modell ist nicht brauchbar',

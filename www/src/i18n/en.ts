@@ -1,6 +1,7 @@
 // Every word of the page's own, in English; labels and help of settings come from the engine.
 // The other tables have the type of this one: a word that they lack does not compile.
 import { formats, unitSign } from './format.ts';
+import { panels } from './panels/en.ts';
 import { print } from './print.en.ts';
 
 const format = formats('en', ['h', 'min', 's']);
@@ -163,6 +164,7 @@ export const en = {
     unit: unitSign,
   },
   printing: print,
+  panels,
   problem: {
     ModelError: { title: 'This model can’t be used', advice: 'Export it again as STL, or open another one.' },
     SettingsError: { title: 'A setting is not right', advice: 'Correct it and slice again.' },

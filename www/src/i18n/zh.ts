@@ -1,6 +1,7 @@
 // The words of the page in Chinese.
 import type { Words } from './en.ts';
 import { formats, unitSign } from './format.ts';
+import { panels } from './panels/zh.ts';
 import { print } from './print.zh.ts';
 
 const format = formats('zh', ['小时', '分', '秒']);
@@ -159,6 +160,7 @@ export const zh: Words = {
     unit: unitSign,
   },
   printing: print,
+  panels,
   problem: {
     ModelError: { title: '无法使用此模型', advice: '请重新导出为 STL，或打开其他模型。' },
     SettingsError: { title: '某项设置有误', advice: '请更正后重新切片。' },

@@ -81,6 +81,13 @@ export class Lead {
         return { kind: 'mesh', mesh: this.#model(request.model).share() };
       case 'compare':
         return { kind: 'compare', report: this.#current().compare() };
+      case 'study':
+        return { kind: 'study', answer: this.#study(request) };
+      case 'thumbnail':
+        return {
+          kind: 'thumbnail',
+          pixels: this.#model(0).thumbnail(Float64Array.from(request.up), request.width, request.height),
+        };
       case 'picture':
         return { kind: 'picture', bounds: this.#picture(request.view, request.standing) };
       case 'paint':
@@ -118,13 +125,41 @@ export class Lead {
 
   #begin(settings: string, standing: Standing = this.#all()): number {
     this.#end();
-    this.#job = new this.#engine.Job(
+    this.#job = this.#newJob(settings, standing);
+    return this.#job.layer_count();
+  }
+
+  #newJob(settings: string, standing: Standing): Job {
+    return new this.#engine.Job(
       this.#copies(standing),
       standing.models.map((model) => this.#names[model] ?? 'model'),
       settings,
       Float64Array.from(standing.placements),
     );
-    return this.#job.layer_count();
+  }
+
+  /** Answers from a job of its own: the one that is sliced goes on. */
+  #study({ settings, question, standing }: Extract<LeadRequest, { kind: 'study' }>): string {
+    if (question.about === 'orientation') {
+      return this.#engine.orientation_lesson(question.report, question.side, question.dark);
+    }
+    const job = this.#newJob(settings, standing ?? this.#all());
+    try {
+      switch (question.about) {
+        case 'baseLayers':
+          return job.base_layers(question.side, question.dark);
+        case 'plane':
+          return job.plane(question.plane, question.side, question.dark);
+        case 'sheets':
+          return job.sheets();
+        case 'lesson':
+          return job.lesson(question.lesson, question.at, question.side, question.dark);
+        default:
+          return question satisfies never;
+      }
+    } finally {
+      job.free();
+    }
   }
 
   /** Every open model once, to be arranged. */
@@ -160,6 +195,7 @@ export class Lead {
       glue: result.glue() as Uint8Array<ArrayBuffer>,
       pieces: result.pieces(),
       times: result.layer_times(),
+      marks: result.marks(),
     };
     result.free();
     return joined;

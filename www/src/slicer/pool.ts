@@ -15,6 +15,7 @@ import type {
   Theme,
   Up,
 } from '../messages.ts';
+import type { Question } from '../studies.ts';
 import { EngineError } from './errors.ts';
 import type { Gcode } from './gcode.ts';
 import type { HelperLane, LeadLane } from './lane.ts';
@@ -164,6 +165,18 @@ export class Pool {
     const { report } = await this.#guard(lead.call({ kind: 'compare' }));
     await lead.call({ kind: 'end' });
     return report;
+  }
+
+  /** Answers a question about the models as they lie with these settings; a job under way goes on. */
+  async study(settings: string, question: Question, standing?: Standing): Promise<string> {
+    await this.ready();
+    return (await this.#guard(this.#someLead().call({ kind: 'study', settings, question, standing }))).answer;
+  }
+
+  /** The first model with `up` turned up, as RGBA pixels. */
+  async thumbnail(up: readonly number[], width: number, height: number): Promise<Uint8Array> {
+    await this.ready();
+    return (await this.#guard(this.#someLead().call({ kind: 'thumbnail', up, width, height }))).pixels;
   }
 
   /** Makes a picture of the parts on the bed, to be painted; resolves to what it covers. */

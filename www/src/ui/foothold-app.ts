@@ -6,6 +6,7 @@ import type { PrintSession } from '../printer/print-session.ts';
 import { isStale, type Step } from '../state.ts';
 import type { Painter } from '../view/painter.ts';
 import './job-bar.ts';
+import './learn-step.ts';
 import './page-menu.ts';
 import './prepare-step.ts';
 import './preview-step.ts';
@@ -16,7 +17,7 @@ import { StepPart } from './step-part.ts';
 import './step-view.ts';
 
 /** The steps there are, in their order. */
-const steps: readonly Step[] = ['prepare', 'preview', 'print'];
+const steps: readonly Step[] = ['prepare', 'preview', 'print', 'learn'];
 
 export class FootholdApp extends StepPart {
   static override properties = {
@@ -76,13 +77,14 @@ export class FootholdApp extends StepPart {
           @theme-change=${({ detail }: CustomEvent<ThemeChoice>) => this.store?.update({ theme: detail })}
         ></page-menu>
       </header>
-      <main class="page">
+      <main class="page ${step === 'learn' ? 'learning' : ''}">
         <div class="panel" id="panel" role="tabpanel" aria-labelledby="tab-${step}">
           ${typeof engine === 'string' ? nothing : problemBox(engine)}
           <div class="panel-scroll">${this.#panel()}</div>
-          ${this.#job()}
+          ${step === 'learn' ? nothing : this.#job()}
         </div>
         <step-view
+          ?hidden=${step === 'learn'}
           .state=${this.state}
           .store=${this.store}
           .session=${this.session}
@@ -104,7 +106,7 @@ export class FootholdApp extends StepPart {
       case 'print':
         return html`<print-step .state=${state} .store=${store} .session=${session} .printing=${this.printing}></print-step>`;
       case 'learn':
-        return nothing;
+        return html`<learn-step .state=${state} .store=${store} .session=${session}></learn-step>`;
       default:
         return state.step satisfies never;
     }

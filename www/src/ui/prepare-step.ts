@@ -7,10 +7,14 @@ import { withChange } from '../settings/changes.ts';
 import type { Schema } from '../settings/fields.ts';
 import { roomOf } from '../settings/room.ts';
 import { canDrawSpace } from '../view/webgl.ts';
+import './base-layer-panel.ts';
 import './drop-zone.ts';
+import './orientation-panel.ts';
 import './part-list.ts';
+import './plane-panel.ts';
 import { problemBox } from './problem-box.ts';
 import './settings-form.ts';
+import './zone-panel.ts';
 import type { SettingChange } from './settings-form.ts';
 import { StepPart } from './step-part.ts';
 
@@ -33,6 +37,10 @@ export class PrepareStep extends StepPart {
         ></drop-zone>
         ${model.kind === 'open' ? this.#parts(model.models) : nothing}
       </section>
+      <base-layer-panel .state=${this.state} .store=${this.store} .session=${this.session}></base-layer-panel>
+      <orientation-panel .state=${this.state} .store=${this.store} .session=${this.session}></orientation-panel>
+      <plane-panel .state=${this.state} .store=${this.store} .session=${this.session}></plane-panel>
+      <zone-panel .state=${this.state} .store=${this.store} .session=${this.session}></zone-panel>
       <settings-form
         .schema=${settingsSchema as Schema}
         .changes=${changes}

@@ -63,7 +63,8 @@ export class StepView extends StepPart {
     if (result === this.#shown?.result && layer === this.#shown?.layer) return;
     if (result !== this.#shown?.result) this.#markers = result === undefined ? [] : placesOf(result);
     const text = result === undefined ? new Uint8Array() : layerOf(result.gcode, layer);
-    this.#shown = result && { result, layer, text, settings: result.settings, height: heightOf(text) };
+    const marks = layer === 0 && result !== undefined ? result.gcode.joined.marks : new Uint8Array();
+    this.#shown = result && { result, layer, text, marks, settings: result.settings, height: heightOf(text) };
     this.moves = Number.POSITIVE_INFINITY;
   }
 

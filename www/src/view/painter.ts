@@ -8,6 +8,8 @@ import type { RoleColour } from './colours.ts';
 export interface LayerText {
   readonly text: Uint8Array;
   readonly settings: string;
+  /** What is drawn besides the paths: rail and teeth on the first layer. */
+  readonly marks: Uint8Array;
 }
 
 export interface Painter {
@@ -21,7 +23,7 @@ export interface Painter {
   /** The triangles of an open model. */
   shape(model: number): Promise<Shape>;
   /** The moves of some layers' G-code. */
-  moves(layers: LayerText): Promise<Moves>;
+  moves(layers: Omit<LayerText, 'marks'>): Promise<Moves>;
   /** Undefined when the picture has to be asked for again. */
   paintPicture(camera: CameraNumbers, theme: Theme): Promise<ImageBitmap | undefined>;
 }
@@ -29,7 +31,7 @@ export interface Painter {
 export function painter(pool: Pool, lane: ViewLane): Painter {
   return {
     adopt: async (canvas) => void (await lane.call({ kind: 'canvas', canvas }, [canvas])),
-    layer: ({ text, settings }) => lane.call({ kind: 'layer', text, settings }),
+    layer: ({ text, settings, marks }) => lane.call({ kind: 'layer', text, settings, marks }),
     paintLayer: async (camera, theme) => void (await lane.call({ kind: 'paint', camera, theme })),
     picture: (side, standing) => pool.picture(side, standing),
     roles: async () => JSON.parse((await lane.call({ kind: 'roles' })).roles) as readonly RoleColour[],

@@ -20,7 +20,7 @@ function handle(request: ViewRequest): ViewReply {
       return { kind: 'roles', roles: engine.role_colours() };
     case 'layer':
       scene?.free();
-      scene = engine.Scene.layer(request.text, request.settings);
+      scene = engine.Scene.layer(request.text, request.settings, request.marks);
       return { kind: 'layer', bounds: boundsOf(scene), legend: JSON.parse(scene.legend()) as LegendEntry[] };
     case 'moves':
       return { kind: 'moves', ...movesOf(request.text, request.settings) };
