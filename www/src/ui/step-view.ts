@@ -6,13 +6,17 @@ import { asStanding } from '../parts.ts';
 import { roomOf } from '../settings/room.ts';
 import { heightOf, layerOf } from '../slicer/gcode.ts';
 import type { Result, Step } from '../state.ts';
+import type { Sheet } from '../studies.ts';
 import type { LayerText, Painter } from '../view/painter.ts';
 import { type Marker, markersOf } from '../view/space-view.ts';
 import { canDrawSpace } from '../view/webgl.ts';
 import '../view/layer-view.ts';
+import { Asked, numberOf } from './asked.ts';
 import './layer-slider.ts';
 import './move-slider.ts';
 import { StepPart } from './step-part.ts';
+
+const NO_SHEETS: readonly Sheet[] = [];
 
 const sides: readonly PictureView[] = ['iso', 'top', 'front'];
 
@@ -47,6 +51,7 @@ export class StepView extends StepPart {
   /** The layer shown and what it was made of; kept while neither changes. */
   #shown: (LayerText & { readonly result: Result; readonly layer: number; readonly height: string }) | undefined;
   #markers: readonly Marker[] = [];
+  readonly #sheets = new Asked<readonly Sheet[]>(this);
 
   constructor() {
     super();
@@ -59,6 +64,7 @@ export class StepView extends StepPart {
   }
 
   protected override willUpdate(): void {
+    this.#askSheets();
     const { result, layer } = this.state;
     if (result === this.#shown?.result && layer === this.#shown?.layer) return;
     if (result !== this.#shown?.result) this.#markers = result === undefined ? [] : placesOf(result);
@@ -66,6 +72,16 @@ export class StepView extends StepPart {
     const marks = layer === 0 && result !== undefined ? result.gcode.joined.marks : new Uint8Array();
     this.#shown = result && { result, layer, text, marks, settings: result.settings, height: heightOf(text) };
     this.moves = Number.POSITIVE_INFINITY;
+  }
+
+  /** Plates are shown while parts are prepared, where supports are made of them. */
+  #askSheets(): void {
+    const { model, parts, changes, step } = this.state;
+    const { session } = this;
+    if (session === undefined || step !== 'prepare') return;
+    const shown = model.kind === 'open' && changes['support.method'] === 'plates';
+    const key = shown ? `${numberOf(parts)} ${JSON.stringify(changes)}` : undefined;
+    this.#sheets.want(key, () => session.study<readonly Sheet[]>({ about: 'sheets' }));
   }
 
   protected override render(): TemplateResult {
@@ -93,6 +109,7 @@ export class StepView extends StepPart {
       .side=${side}
       .model=${model}
       .parts=${parts}
+      .sheets=${this.#sheets.answer ?? NO_SHEETS}
       .selected=${selected}
       .room=${roomOf(changes)}
       .dark=${dark}

@@ -5,6 +5,7 @@ import type { Moves, PictureView } from '../messages.ts';
 import { middleOf, type Part, type Room } from '../parts.ts';
 import { layersOf } from '../slicer/gcode.ts';
 import type { ModelState, Remark, Result } from '../state.ts';
+import type { Sheet } from '../studies.ts';
 import { Part as Element } from '../ui/part.ts';
 import type { Size, Spot } from './camera.ts';
 import { type ColourBy, extent, indices, insideRoles, palette, type RoleColour } from './colours.ts';
@@ -59,6 +60,7 @@ export class SpaceView extends Element {
     tool: { attribute: false },
     markers: { attribute: false },
     label: { attribute: false },
+    sheets: { attribute: false },
     spots: { state: true },
   };
   declare painter: Painter | undefined;
@@ -81,6 +83,8 @@ export class SpaceView extends Element {
   declare tool: 'select' | 'flat' | 'measure';
   declare markers: readonly Marker[];
   declare label: string;
+  /** Plates of supports, shown with the parts. */
+  declare sheets: readonly Sheet[];
   declare spots: readonly (Spot | undefined)[];
 
   #stage: Stage | undefined;
@@ -118,6 +122,7 @@ export class SpaceView extends Element {
     this.tool = 'select';
     this.markers = [];
     this.label = '';
+    this.sheets = [];
     this.spots = [];
   }
 
@@ -211,6 +216,7 @@ export class SpaceView extends Element {
       if (first !== undefined) void this.#load(stage, model, first);
     }
     stage.showParts(this.parts, this.selected, this.room);
+    stage.showSheets(this.sheets);
   }
 
   async #load(stage: Stage, model: number, first: unknown): Promise<void> {

@@ -25,10 +25,12 @@ import {
 } from 'three';
 import type { Moves, Shape } from '../messages.ts';
 import { isOutside, type Part, type Room } from '../parts.ts';
+import type { Sheet } from '../studies.ts';
 import { Beads } from './beads.ts';
 import { Bed } from './bed.ts';
 import type { Size, Spot } from './camera.ts';
 import { eyeOf, FIELD_OF_VIEW, type Orbit, type Point } from './orbit.ts';
+import { Sheets } from './sheets.ts';
 
 /** What a ray from the eye meets. */
 export interface Hit {
@@ -60,6 +62,7 @@ export class Stage {
   readonly #parts = new Group();
   readonly #shapes = new Map<number, BufferGeometry>();
   readonly #beads = new Beads();
+  readonly #sheets = new Sheets();
   readonly #frame = new Box3Helper(new Box3(), 0x2f8f86);
   readonly #ruler = new Line(new BufferGeometry(), new LineBasicMaterial({ color: 0xe8743b, depthTest: false }));
   readonly #ray = new Raycaster();
@@ -80,7 +83,7 @@ export class Stage {
     });
     this.#camera.up.set(0, 0, 1);
     this.#scene.add(new AmbientLight(0xffffff, 1.25), this.#sun, this.#bed.group, this.#parts, this.#beads.group);
-    this.#scene.add(this.#frame, this.#ruler);
+    this.#scene.add(this.#frame, this.#ruler, this.#sheets.group);
     this.#ruler.visible = false;
     this.#ruler.renderOrder = 1;
   }
@@ -154,6 +157,12 @@ export class Stage {
     this.redraw();
   }
 
+  /** The plates that will hold the parts. */
+  showSheets(sheets: readonly Sheet[]): void {
+    this.#sheets.show(sheets);
+    this.redraw();
+  }
+
   /** Draws a part somewhere else for the moment, mm along the bed. */
   shift(id: number, x: number, y: number): void {
     const mesh = this.#parts.children.find((it) => it.userData['part'] === id);
@@ -168,6 +177,7 @@ export class Stage {
   /** Either the parts or the beads are in sight. */
   turnTo(what: 'parts' | 'beads'): void {
     this.#parts.visible = what === 'parts';
+    this.#sheets.group.visible = what === 'parts';
     this.#frame.visible &&= what === 'parts';
     this.#beads.group.visible = what === 'beads';
     this.redraw();
