@@ -77,15 +77,18 @@ fn is_crowded(area: &PolygonSet) -> bool {
     outer.map(Contour::length).sum::<f64>() > CROWDED * around
 }
 
-/// Vertices that are simplified together. Douglas and Peucker's way costs the square of their number in the
-/// worst case, which a comb of 5,000 corners is; the ends of each group stay.
-const GROUP: usize = 128;
+/// Longer contours are simplified in groups of [`GROUP`] vertices: Douglas and Peucker's way costs the square of
+/// their number in the worst case, which a comb is. The ends of each group stay.
+const LONG: usize = 2500;
+
+/// See [`LONG`].
+const GROUP: usize = 256;
 
 /// Contours closer than the tolerance may come to cross by it; unlike [`PolygonSet::simplified`] this does
 /// not unite them again, as offsets and distances do not mind.
 pub(super) fn simplified_by(set: &PolygonSet, tolerance: f64) -> PolygonSet {
     let simpler = |c: &Contour| {
-        if c.points.len() <= 2 * GROUP {
+        if c.points.len() <= LONG {
             return simplify_ring(c, tolerance);
         }
         let groups = (0..c.points.len()).step_by(GROUP);
