@@ -36,7 +36,7 @@ fn plates_of_a_ball(c: &mut Criterion) {
         let heights: Vec<f64> = layers.iter().map(|l| l.slice_z).collect();
         let sections = slice_mesh(&mesh, Axis::Z, &heights, 0.0125);
         let areas: Vec<PolygonSet> = sections.into_iter().map(|s| s.area).collect();
-        let plates = PlateOptions { spacing_x: spacing, spacing_y: spacing, thickness: 1 };
+        let plates = PlateOptions { spacing_x: spacing, spacing_y: spacing, ..PlateOptions::default() };
         let options = SupportOptions { method: SupportMethod::Plates, plates, ..SupportOptions::default() };
         let input = SupportInput { mesh: &mesh, layers: &layers, areas: &areas };
         group.bench_function(name, |b| {

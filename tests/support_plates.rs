@@ -48,7 +48,7 @@ fn bare(spacing: f64) -> SupportOptions {
         gap_z: 0.0,
         gap_xy: 0.0,
         interface_layers: 0,
-        plates: PlateOptions { spacing_x: spacing, spacing_y: spacing, thickness: 1 },
+        plates: PlateOptions { spacing_x: spacing, spacing_y: spacing, ..PlateOptions::default() },
         ..plates()
     }
 }
@@ -213,7 +213,7 @@ fn a_tall_plate_alone_gets_one_across_it() {
     let outline: Vec<DVec2> = gate.iter().map(|&(x, z)| dvec2(f64::from(x), f64::from(z))).collect();
     let mut mesh = prism(&outline, &[], 0.0, 1.0);
     mesh.vertices.iter_mut().for_each(|v| *v = vec3(v.x, 1.0 - v.z, v.y));
-    let wide = PlateOptions { spacing_x: 20.0, spacing_y: 20.0, thickness: 1 };
+    let wide = PlateOptions { spacing_x: 20.0, spacing_y: 20.0, ..PlateOptions::default() };
     let part = sliced(mesh);
     let found = part.supports(&SupportOptions { plates: wide, ..plates() });
     let axes = |axis| found.report().plates.iter().filter(|p| p.axis == axis).count();
@@ -325,5 +325,54 @@ fn assert_clear(name: &str, part: &Sliced, supports: &Supports) {
         let beads: Vec<Contour> = supports.layer_paths(k).iter().map(|p| rectangle(p, 0.4)).collect();
         let hit = PolygonSet::from_contours(beads).intersection(&near).opened(0.02, Join::WALL);
         assert!(hit.area() < 0.01, "{name} layer {k}: {} mm2 too near", hit.area());
+    }
+}
+
+#[test]
+fn pieces_near_each_other_are_joined_by_low_walls() {
+    // Two tables beside each other, each on its own leg, without anything between them.
+    let row = |y: f32| {
+        let leg = cuboid(vec3(0.0, y, 0.0), vec3(4.0, y + 12.0, 20.1));
+        together(&[leg, cuboid(vec3(0.0, y, 20.0), vec3(20.0, y + 12.0, 22.0))])
+    };
+    let part = sliced(together(&[row(0.0), row(20.0)]));
+    let with = |join_distance: f64| {
+        let options = PlateOptions { join_distance, ..plates().plates };
+        part.supports(&SupportOptions { plates: options, ..plates() })
+    };
+    let (apart, joined) = (with(0.0), with(20.0));
+    assert_eq!((apart.report().pieces, joined.report().pieces), (2, 1));
+    // One wall of 10 layers, 8 mm and a bead's ends at most.
+    let more = joined.report().volume_mm3 - apart.report().volume_mm3;
+    assert!(more > 0.0 && more < 10.0 * 0.4 * 0.2 * 9.5, "{more}");
+    let blockers = vec![[-5.0, 12.5, 0.0, 30.0, 19.5, 5.0]];
+    let blocked = part.supports(&SupportOptions { blockers, ..plates() });
+    assert_eq!(blocked.report().pieces, 2);
+}
+
+#[test]
+fn a_tower_without_room_for_a_plate_across_it_gets_a_thicker_foot() {
+    // A bar 0.5 mm wide between two posts, held by a plate 0.6 thick and 29 mm tall: below the bar no
+    // bead of that width fits across.
+    let gate = [(0, 0), (10, 0), (10, 30), (13, 30), (13, 0), (23, 0), (23, 32), (0, 32)];
+    let outline: Vec<DVec2> = gate.iter().map(|&(x, z)| dvec2(f64::from(x), f64::from(z))).collect();
+    let mut mesh = prism(&outline, &[], 0.0, 0.5);
+    mesh.vertices.iter_mut().for_each(|v| *v = vec3(v.x, 0.5 - v.z, v.y));
+    let wide = PlateOptions { spacing_x: 50.0, spacing_y: 50.0, ..PlateOptions::default() };
+    let part = sliced(mesh);
+    let found = part.supports(&SupportOptions { plates: wide, line_width: 0.6, ..plates() });
+    assert!(found.warnings().is_empty(), "{:?}", found.warnings());
+    // It may stand alone for 20 x 0.6 = 12 mm; below that it is three lines thick, five on the bed.
+    let top = 29.6;
+    for (k, layer) in part.layers.iter().enumerate().filter(|(_, l)| l.print_z < top) {
+        let lines = paths(&found, k, Role::Support).len();
+        let expected = if k == 0 {
+            5
+        } else if layer.print_z <= top - 12.0 + 0.21 {
+            3
+        } else {
+            1
+        };
+        assert_eq!(lines, expected, "layer {k}");
     }
 }

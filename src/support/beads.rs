@@ -102,8 +102,10 @@ fn break_crossings(lines: &mut [Lines; 2], broken: usize, width: f64) {
         let hit = |other: &&(f64, Vec<Span>)| other.1.iter().any(|&s| spans::meet(s, [*at, *at], width));
         let mut cuts: Vec<Span> = whole.iter().filter(hit).map(|o| [o.0 - width, o.0 + width]).collect();
         spans::tidy(&mut cuts);
-        *spans = spans::subtract(spans, &cuts);
-        spans.retain(|s| s[1] - s[0] > SHORTEST_MM);
+        // A bead that is short by itself is a pin, whole in every layer.
+        let broken = spans::subtract(spans, &cuts);
+        let is_whole = |s: &Span| spans.contains(s);
+        *spans = broken.iter().copied().filter(|s| s[1] - s[0] > SHORTEST_MM || is_whole(s)).collect();
     }
     lines[1 - broken] = whole;
 }

@@ -10,6 +10,7 @@
 mod beads;
 mod cover;
 mod error;
+mod foot;
 mod frame;
 mod grid;
 mod interface;
@@ -21,6 +22,7 @@ pub mod points;
 mod report;
 mod section;
 mod spans;
+mod ties;
 pub mod volumes;
 
 pub use beads::Bead;
@@ -90,7 +92,7 @@ impl Supports {
 /// Refuses settings that contradict each other.
 pub fn check_options(options: &SupportOptions) -> Result<(), SupportError> {
     options.check("support")?;
-    let PlateOptions { spacing_x, spacing_y, thickness } = options.plates;
+    let PlateOptions { spacing_x, spacing_y, thickness, .. } = options.plates;
     let least = options.line_width * f64::from(thickness);
     let spacings = [
         ("support.plates.spacing_x", spacing_x, least),
@@ -219,7 +221,8 @@ impl Job<'_> {
         let needs = cover::needs(self);
         step(3)?;
         let first = pieces::sort_out(&self.frame, &mut plates);
-        let sorted = if adds_planes { self.complete(&needs, &mut plates, first) } else { first };
+        let mut sorted = if adds_planes { self.complete(&needs, &mut plates, first) } else { first };
+        sorted.towers.retain(|tower| !foot::widen(self, &mut plates, tower));
         step(4)?;
         let (layers, volume_mm3) = beads::assemble(self, &needs, &plates);
         let report = SupportReport {
@@ -280,7 +283,11 @@ impl Job<'_> {
         // What was added may stand on nothing; the other direction may do better.
         cover::add_planes(self, needs, plates, true);
         let last = pieces::sort_out(&self.frame, plates);
-        pieces::Sorted { dropped: first.dropped + braced.dropped + last.dropped, ..last }
+        ties::join(self, plates);
+        // A low wall keeps no tower from buckling: those found before it stay.
+        let joined = pieces::sort_out(&self.frame, plates);
+        let dropped = first.dropped + braced.dropped + last.dropped + joined.dropped;
+        pieces::Sorted { dropped, pieces: joined.pieces, towers: last.towers }
     }
 
     /// Gives lonely towers a crossing plate; drops what stands on nothing.

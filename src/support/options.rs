@@ -54,6 +54,9 @@ crate::options! {
         spacing_x: f64 = 4.0, "Spacing along x", "mm", 0.1..=100.0;
         /// Distance between the planes y = const; at least a plate's thickness.
         spacing_y: f64 = 4.0, "Spacing along y", "mm", 0.1..=100.0;
+        /// Pieces that stand on the bed no farther apart than this are joined by low walls, so that they
+        /// come off together; 0 joins none.
+        join_distance: f64 = 20.0, "Join pieces up to", "mm", 0.0..=200.0;
         /// Lines side by side in a plate.
         thickness: u32 = 1, "Thickness in lines", "", 1.0..=3.0;
     }

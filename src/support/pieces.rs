@@ -9,7 +9,7 @@ use crate::slice::Axis;
 const SHORT_MM: f64 = 1.0;
 
 /// A plate without a crossing one buckles when it is taller than this many times its thickness.
-const SLENDER: f64 = 20.0;
+pub(super) const SLENDER: f64 = 20.0;
 
 /// What became of the pieces.
 #[derive(Debug, Default)]
@@ -71,6 +71,28 @@ pub(super) fn sort_out(frame: &Frame, plates: &mut [Plate]) -> Sorted {
         }
     }
     sorted
+}
+
+/// A bead on the bed and the piece it belongs to.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BedBead {
+    pub(super) axis: Axis,
+    /// Place of its plate, mm.
+    pub(super) at: f64,
+    pub(super) span: Span,
+    pub(super) piece: u32,
+}
+
+/// The beads of the lowest layer, piece by number.
+pub(super) fn on_bed(frame: &Frame, plates: &[Plate]) -> Vec<BedBead> {
+    let nodes = nodes_of(plates);
+    let parent = connect(frame, plates, &nodes);
+    let on_bed = nodes.iter().zip(&parent).filter(|(node, _)| node.layer == 0);
+    let bead = |(node, &piece): (&Node, &u32)| {
+        let plate = &plates[node.plate as usize];
+        BedBead { axis: plate.axis, at: plate.at, span: node.span, piece }
+    };
+    on_bed.map(bead).collect()
 }
 
 /// What is known of a piece.
@@ -207,7 +229,7 @@ fn link_met(parent: &mut [u32], node: u32, span: Span, others: &[Span], first: u
     }
 }
 
-fn root(parent: &mut [u32], mut node: u32) -> u32 {
+pub(super) fn root(parent: &mut [u32], mut node: u32) -> u32 {
     while parent[node as usize] != node {
         parent[node as usize] = parent[parent[node as usize] as usize];
         node = parent[node as usize];
@@ -215,7 +237,7 @@ fn root(parent: &mut [u32], mut node: u32) -> u32 {
     node
 }
 
-fn link(parent: &mut [u32], a: u32, b: u32) {
+pub(super) fn link(parent: &mut [u32], a: u32, b: u32) {
     let (a, b) = (root(parent, a), root(parent, b));
     parent[a.max(b) as usize] = a.min(b);
 }
