@@ -16,6 +16,7 @@ use crate::region::shell::SkinOptions;
 use crate::slice::LayerOptions;
 use crate::support::SupportOptions;
 use crate::toolpath::infill::InfillOptions;
+use crate::toolpath::prime_tower::PrimeTowerOptions;
 use crate::toolpath::seam::SeamOptions;
 use crate::toolpath::walls::WallOptions;
 
@@ -26,6 +27,8 @@ crate::options! {
         printer: group PrinterOptions;
         /// The material.
         filament: group FilamentOptions;
+        /// The material of the second extruder.
+        second_filament: group FilamentOptions;
         /// Heights of the layers.
         layers: group LayerOptions;
         /// What is different on the first layer.
@@ -44,6 +47,8 @@ crate::options! {
         adhesion: group AdhesionOptions;
         /// What holds overhangs.
         support: group SupportOptions;
+        /// Where a tool that takes over is purged.
+        prime_tower: group PrimeTowerOptions;
         /// Speeds by role.
         speed: group SpeedOptions;
         /// Accelerations by role.
@@ -138,6 +143,8 @@ impl Settings {
         GcodeOptions {
             printer: self.printer.clone(),
             filament: self.filament.clone(),
+            second_filament: self.second_filament.clone(),
+            support_tool: self.support.tool as u8,
             speed: self.speed.clone(),
             retraction: self.retraction.clone(),
             acceleration: self.acceleration.clone(),

@@ -217,7 +217,7 @@ proptest! {
             let (to, filament, feed) = match *step {
                 Move::Role(next) => { role = Some(next); continue }
                 Move::Width(next) => { width = Some(f64::from(next) / 1000.0); continue }
-                Move::Fan(_) | Move::Acceleration(_) => continue,
+                Move::Fan(_) | Move::Acceleration(_) | Move::Tool { .. } => continue,
                 Move::Extrude { to, filament, feed } | Move::Wipe { to, filament, feed } => (Some(to), filament, feed),
                 Move::Travel { to, feed } => (Some(to), 0, feed),
                 Move::Filament { filament, feed } => (None, filament, feed),

@@ -45,6 +45,8 @@ pub struct Limits {
     pub max_speed_e: f64,
     /// Junction deviation.
     pub junction_deviation: f64,
+    /// Duration of a tool change, s.
+    pub tool_change_time: f64,
 }
 
 impl Limits {
@@ -62,6 +64,7 @@ impl Limits {
             max_speed_z: printer.max_speed_z,
             max_speed_e: printer.max_speed_e,
             junction_deviation: printer.junction_deviation,
+            tool_change_time: printer.tool_change_time,
         }
     }
 }
@@ -89,6 +92,10 @@ pub fn move_times(start: Place, z: i32, moves: &[Move], limits: &Limits) -> Vec<
                 let speed = mm_s(feed).min(limits.max_speed_e);
                 times[i] =
                     from_rest(f64::from(filament).abs() / FILAMENT_STEPS, speed, limits.retract_acceleration);
+            }
+            Move::Tool { .. } => {
+                run.stop(&mut times);
+                times[i] = limits.tool_change_time;
             }
             Move::Lift { z: to, feed } => {
                 run.stop(&mut times);

@@ -2,6 +2,7 @@
 
 use super::plan::{Account, Hop, feed_rate, filament_steps, micrometres, z_feed};
 use super::start::{PrintFacts, end_code, follow, start_code};
+use super::tool::Change;
 use super::writer::Writer;
 use super::{
     FILAMENT_STEPS, GcodeError, GcodeOptions, LayerSummary, Limits, Move, Place, RoleUse, filament_area,
@@ -89,6 +90,7 @@ pub fn join(
     let end_text = end_code(options, facts)?;
     let mut route = Route::new(options);
     let start = route.start(&start_text, facts);
+    let has_two_tools = layers.iter().any(|layer| layer.tools != [0, 0]);
     let ways: Vec<Way> = layers.iter().map(|layer| route.reach(layer)).collect();
     let end = route.end(&end_text);
     let totals = route.totals(layers.len());
@@ -96,6 +98,9 @@ pub fn join(
     let mut file = FileWriter::new(options, totals.time_s);
     file.head(notes);
     file.text(&start_text);
+    if has_two_tools {
+        file.preheat_second();
+    }
     file.progress(0.0);
     file.way(&start);
     for (k, (layer, way)) in layers.iter().zip(&ways).enumerate() {
@@ -103,6 +108,9 @@ pub fn join(
     }
     file.way(&end);
     file.text(&end_text);
+    if has_two_tools {
+        file.text("M104 T0 S0 ; both nozzles off\nM104 T1 S0\n");
+    }
     file.progress(totals.time_s);
     file.foot(&totals, notes);
     let (glue, pieces) = file.finish();
@@ -144,12 +152,15 @@ struct Route<'a> {
     at: Place,
     z: i32,
     fan: u8,
+    tool: u8,
     /// Filament that is pulled back, in steps.
     retracted: i32,
     /// Where the nozzle may be wiped before it leaves; empty for nowhere.
     wipe: Vec<Place>,
     time_s: f64,
     filament_mm: f64,
+    /// How much of it by the second tool.
+    second_filament_mm: f64,
     travel_mm: f64,
     retractions: u32,
     by_role: BTreeMap<Role, RoleUse>,
@@ -163,10 +174,12 @@ impl<'a> Route<'a> {
             at: Place::default(),
             z: 0,
             fan: 0,
+            tool: 0,
             retracted: 0,
             wipe: Vec::new(),
             time_s: 0.0,
             filament_mm: 0.0,
+            second_filament_mm: 0.0,
             travel_mm: 0.0,
             retractions: 0,
             by_role: BTreeMap::new(),
@@ -225,9 +238,15 @@ impl<'a> Route<'a> {
         let distance = self.at.distance(to);
         let mut moves = Vec::new();
         let wipe = &std::mem::take(&mut self.wipe);
-        let (from_z, retracted) = (self.z, self.retracted);
-        Hop { to, via: &[], from_z, to_z: z, distance, oozes_outside: true, retracted, wipe }
-            .moves(self.options, &mut moves);
+        let (from_z, retracted, tool) = (self.z, self.retracted, layer.tools[0]);
+        if tool == self.tool {
+            let hop = Hop { to, via: &[], from_z, to_z: z, distance, oozes_outside: true, retracted, wipe };
+            hop.moves(self.options, &mut moves);
+        } else {
+            let from = self.tool;
+            let change = Change { from, to: tool, layer: layer.index, place: to, from_z, to_z: z, retracted };
+            change.moves(self.options, &mut moves);
+        }
         if layer.fan[0] != self.fan {
             moves.push(Move::Fan(layer.fan[0]));
         }
@@ -235,8 +254,10 @@ impl<'a> Route<'a> {
         self.at = Place::of(stops.end);
         self.wipe = layer.wipe.iter().map(|&p| Place::of(p)).collect();
         self.fan = layer.fan[1];
+        self.tool = layer.tools[1];
         self.time_s += layer.time_s;
         self.filament_mm += layer.filament_mm;
+        self.second_filament_mm += layer.second_filament_mm;
         self.travel_mm += layer.travel_mm;
         self.retractions += layer.retractions;
         for (&role, &used) in &layer.by_role {
@@ -260,9 +281,10 @@ impl<'a> Route<'a> {
     /// Books text of other hands and returns its time.
     fn other_hands(&mut self, text: &str) -> f64 {
         let effect = follow(text, self.at, self.z);
-        let (from, area) = (self.at, filament_area(self.options.filament.diameter));
+        let (from, tool) = (self.at, self.tool);
+        let area = filament_area(self.options.filament_of(tool).diameter);
         let times = move_times(from, self.z, &effect.moves, &self.limits);
-        let account = Account::of(from, &effect.moves, &times, area);
+        let account = Account::of(from, &effect.moves, &times, tool, self.options);
         let filament_mm = f64::from(effect.filament) / FILAMENT_STEPS;
         if effect.filament > 0 {
             let beads = account.by_role.values().fold(RoleUse::default(), |mut sum, &used| {
@@ -283,12 +305,13 @@ impl<'a> Route<'a> {
     /// Books moves of our own and returns their time.
     fn book(&mut self, moves: &[Move]) -> f64 {
         let times = move_times(self.at, self.z, moves, &self.limits);
-        let account = Account::of(self.at, moves, &times, filament_area(self.options.filament.diameter));
+        let account = Account::of(self.at, moves, &times, self.tool, self.options);
         for &step in moves {
             match step {
                 Move::Lift { z, .. } => self.z = z,
                 Move::Filament { filament, .. } | Move::Wipe { filament, .. } => self.retracted -= filament,
                 Move::Fan(fan) => self.fan = fan,
+                Move::Tool { to, .. } => self.tool = to,
                 Move::Role(_)
                 | Move::Width(_)
                 | Move::Acceleration(_)
@@ -297,7 +320,7 @@ impl<'a> Route<'a> {
             }
         }
         self.at = account.end;
-        self.filament_mm += account.filament as f64 / FILAMENT_STEPS;
+        self.filament_mm += account.filament_mm();
         self.travel_mm += account.travel_mm;
         self.retractions += account.retractions;
         self.time_s += account.time_s;
@@ -308,16 +331,23 @@ impl<'a> Route<'a> {
     }
 
     fn totals(self, layers: usize) -> Totals {
-        let filament = &self.options.filament;
-        let volume_mm3 = self.filament_mm * filament_area(filament.diameter);
-        let mass_g = volume_mm3 / 1000.0 * filament.density;
+        let lengths = [self.filament_mm - self.second_filament_mm, self.second_filament_mm];
+        let (mut volume_mm3, mut mass_g, mut cost) = (0.0, 0.0, 0.0);
+        for (tool, length) in (0..).zip(lengths) {
+            let filament = self.options.filament_of(tool);
+            let volume = length * filament_area(filament.diameter);
+            let mass = volume / 1000.0 * filament.density;
+            volume_mm3 += volume;
+            mass_g += mass;
+            cost += mass / 1000.0 * filament.cost_per_kg;
+        }
         Totals {
             layers: layers as u32,
             time_s: self.time_s,
             filament_mm: self.filament_mm,
             volume_mm3,
             mass_g,
-            cost: mass_g / 1000.0 * filament.cost_per_kg,
+            cost,
             travel_mm: self.travel_mm,
             retractions: self.retractions,
             by_role: self.by_role,
@@ -336,6 +366,8 @@ struct FileWriter<'a> {
     passed_s: f64,
     /// Percent and minutes reported last.
     reported: Option<(u32, u32)>,
+    /// The tool that prints.
+    tool: u8,
 }
 
 impl<'a> FileWriter<'a> {
@@ -348,6 +380,7 @@ impl<'a> FileWriter<'a> {
             total_s,
             passed_s: 0.0,
             reported: None,
+            tool: 0,
         }
     }
 
@@ -410,11 +443,18 @@ impl<'a> FileWriter<'a> {
         }
         self.layer_piece(k, start, layer.text_len);
         self.passed_s += layer.time_s;
+        self.tool = layer.tools[1];
+    }
+
+    /// Heats the second nozzle while the first one begins, and says who begins.
+    fn preheat_second(&mut self) {
+        let temp = self.options.nozzle_temp(1, 0);
+        self.text(&format!("M104 T1 S{temp} ; heat the second nozzle\nT0\n"));
     }
 
     /// Temperatures from the second layer on, where they differ; nobody waits for them.
     fn later_temperatures(&mut self) {
-        let filament = &self.options.filament;
+        let filament = self.options.filament_of(self.tool);
         if filament.nozzle_temp != filament.first_layer_nozzle_temp {
             self.text(&format!("M104 S{}\n", filament.nozzle_temp));
         }

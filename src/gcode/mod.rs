@@ -24,6 +24,7 @@ mod options;
 mod plan;
 pub mod read;
 mod start;
+mod tool;
 mod writer;
 
 use std::collections::BTreeMap;
@@ -38,6 +39,7 @@ pub use options::{
 };
 pub use plan::plan_layer;
 pub use start::{GcodeError, check_templates};
+pub use tool::TOOLS;
 pub use writer::type_name;
 
 use crate::polygon::{DVec2, dvec2};
@@ -83,10 +85,14 @@ pub struct LayerSummary {
     pub stops: Option<Stops>,
     /// Fan that the layer needs at its start and leaves at its end, 0 to 255.
     pub fan: [u8; 2],
+    /// Tool that the layer needs at its start and leaves at its end.
+    pub tools: [u8; 2],
     /// Duration from stop to stop, s.
     pub time_s: f64,
     /// Filament printed, mm. What a retraction pulls back is pushed again and does not count.
     pub filament_mm: f64,
+    /// How much of it by the second tool, mm.
+    pub second_filament_mm: f64,
     /// Length of moves without extrusion, mm.
     pub travel_mm: f64,
     /// Number of retractions.
@@ -211,6 +217,17 @@ pub enum Move {
         /// Feed rate.
         feed: u32,
     },
+    /// Another tool takes over, and is waited for until it is hot; temperatures in whole degrees C.
+    Tool {
+        /// The tool that prints so far.
+        from: u8,
+        /// The tool that prints from here on.
+        to: u8,
+        /// Nozzle temperature of the new tool.
+        nozzle: u16,
+        /// Nozzle temperature of the old tool while it waits; 0 leaves it as hot as it is.
+        standby: u16,
+    },
     /// The nozzle goes to this height.
     Lift {
         /// The height.
@@ -226,7 +243,7 @@ pub(crate) const FILAMENT_STEPS: f64 = 1e5;
 /// Text and figures of one layer. Depends on nothing but its arguments.
 pub fn layer_gcode(layer: &LayerInput<'_>, options: &GcodeOptions) -> LayerGcode {
     let plan = plan_layer(layer, options);
-    let mut summary = plan.summary(filament_area(options.filament.diameter));
+    let mut summary = plan.summary(options);
     let text = writer::write_layer(&plan, options.printer.flavor, &mut summary.marks);
     summary.text_len = u32::try_from(text.len()).expect("a layer's text is far below 4 GiB");
     LayerGcode { text, summary }

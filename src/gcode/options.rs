@@ -30,6 +30,10 @@ crate::options! {
         bed_size: [f64; 2] = [220.0, 220.0], "Bed size", "mm", 10.0..=5000.0;
         /// Highest print.
         height: f64 = 250.0, "Print height", "mm", 10.0..=5000.0;
+        /// Number of extruders. The second one may print supports (support.tool).
+        extruders: u32 = 1, "Extruders", "", 1.0..=2.0;
+        /// What a change of tools takes, without heating; only the time estimate needs it.
+        tool_change_time: f64 = 5.0, "Time of a tool change", "s", 0.0..=600.0;
         /// Diameter of the nozzle's hole.
         nozzle_diameter: f64 = 0.4, "Nozzle diameter", "mm", 0.1..=3.0;
         /// The firmware whose dialect is written.
@@ -77,6 +81,8 @@ crate::options! {
         first_layer_nozzle_temp: f64 = 210.0, "First layer nozzle temperature", "degrees C", 0.0..=500.0;
         /// Bed temperature on the first layer; 0 leaves the bed cold.
         first_layer_bed_temp: f64 = 60.0, "First layer bed temperature", "degrees C", 0.0..=200.0;
+        /// Nozzle temperature while another tool prints; 0 keeps it as hot as for printing.
+        standby_temp: f64 = 0.0, "Standby temperature", "degrees C", 0.0..=500.0;
         /// Mass per volume.
         density: f64 = 1.24, "Density", "g/cm3", 0.1..=20.0;
         /// Price of a kilogram, in any currency.
@@ -154,6 +160,8 @@ crate::options! {
         speed: f64 = 35.0, "Retraction speed", "mm/s", 0.1..=500.0;
         /// How far the nozzle is lifted for a travel with retraction; 0 stays on the layer.
         z_hop: f64 = 0.0, "Z hop", "mm", 0.0..=10.0;
+        /// How far the filament is pulled back before another tool takes over.
+        tool_change_length: f64 = 10.0, "Retraction before a tool change", "mm", 0.0..=100.0;
         /// Shorter travels are made without retraction.
         min_travel: f64 = 1.5, "Shortest travel with retraction", "mm", 0.0..=1000.0;
         /// Moves the nozzle over the bead just printed while the filament is pulled back, so that what
@@ -252,6 +260,10 @@ pub struct GcodeOptions {
     pub printer: PrinterOptions,
     /// Settings `filament.*`.
     pub filament: FilamentOptions,
+    /// Settings `second_filament.*`: the material of tool 1.
+    pub second_filament: FilamentOptions,
+    /// Setting `support.tool`.
+    pub support_tool: u8,
     /// Settings `speed.*`.
     pub speed: SpeedOptions,
     /// Settings `retraction.*`.
@@ -271,6 +283,8 @@ impl Default for GcodeOptions {
         GcodeOptions {
             printer: PrinterOptions::default(),
             filament: FilamentOptions::default(),
+            second_filament: FilamentOptions::default(),
+            support_tool: 0,
             speed: SpeedOptions::default(),
             retraction: RetractionOptions::default(),
             acceleration: AccelerationOptions::default(),

@@ -1,10 +1,11 @@
 //! Paths of one layer, in printing order, to the moves of the machine.
 
 use super::cooling::{Fan, Stretch, slow_down};
-use super::extrude::Feeder;
+use super::extrude::{Feeder, filament_area};
+use super::tool::{Change, TOOLS};
 use super::{
-    FILAMENT_STEPS, GcodeOptions, LayerInput, LayerSummary, Limits, Move, Place, RetractionOptions, RoleUse,
-    Stops, move_times,
+    FILAMENT_STEPS, FilamentOptions, GcodeOptions, LayerInput, LayerSummary, Limits, Move, Place,
+    RetractionOptions, RoleUse, Stops, move_times,
 };
 use crate::region::{Bead, Path, Role, Width};
 use crate::toolpath::Way;
@@ -44,6 +45,8 @@ pub struct LayerPlan {
     pub z: i32,
     /// Fan at start and end.
     pub fan: [u8; 2],
+    /// Tool at start and end.
+    pub tools: [u8; 2],
     /// What the machine does; empty if there are no paths.
     pub moves: Vec<Move>,
     /// Seconds of each move.
@@ -58,11 +61,13 @@ pub fn plan_layer(layer: &LayerInput<'_>, options: &GcodeOptions) -> LayerPlan {
     let mut planner = Planner::new(layer, options);
     let across = Way::ACROSS;
     let told = layer.ways.iter().chain(std::iter::repeat(&across));
-    for (path, way) in layer.paths.iter().zip(told) {
-        planner.path(path, way);
+    let tools = options.tools_of(layer.paths);
+    for ((path, way), tool) in layer.paths.iter().zip(told).zip(tools) {
+        planner.path(path, way, tool);
     }
     planner.set_acceleration(options.printer.acceleration);
     let wipe = planner.wipe_way();
+    let tools = [planner.first_tool, planner.tool];
     let Planner { start, z, mut moves, .. } = planner;
     let start = start.unwrap_or_default();
     let limits = Limits::of(&options.printer);
@@ -80,6 +85,7 @@ pub fn plan_layer(layer: &LayerInput<'_>, options: &GcodeOptions) -> LayerPlan {
         start,
         z,
         fan,
+        tools,
         moves,
         times,
         wipe,
@@ -114,6 +120,8 @@ struct Planner<'a> {
     feeder: Feeder,
     /// State of the machine while the moves are laid down.
     start: Option<Place>,
+    first_tool: u8,
+    tool: u8,
     at: Place,
     /// What is known of the way to the next bead.
     via: Vec<Place>,
@@ -143,6 +151,8 @@ impl<'a> Planner<'a> {
             z: micrometres(layer.print_z),
             feeder: Feeder::new(options.filament.diameter),
             start: None,
+            first_tool: 0,
+            tool: 0,
             at: Place::default(),
             via: Vec::new(),
             crosses_outline: false,
@@ -154,7 +164,18 @@ impl<'a> Planner<'a> {
         }
     }
 
-    fn path(&mut self, path: &Path, way: &Way) {
+    fn filament(&self) -> &'a FilamentOptions {
+        self.options.filament_of(self.tool)
+    }
+
+    /// Beads from here on are of this tool's material.
+    fn take_tool(&mut self, tool: u8) {
+        self.tool = tool;
+        self.feeder = Feeder::new(self.filament().diameter);
+        self.role = None;
+    }
+
+    fn path(&mut self, path: &Path, way: &Way, tool: u8) {
         // A path too small to print leaves its way to the next one.
         self.crosses_outline |= way.crosses_outline;
         self.via.extend(way.via.iter().map(|&p| Place::of(p)));
@@ -163,7 +184,7 @@ impl<'a> Planner<'a> {
         if rest.iter().all(|&p| p == first) {
             return;
         }
-        self.go_to(first);
+        self.come_to(first, tool);
         self.set_role(path.role);
         match &path.width {
             Width::Uniform(width) => self.uniform(path, &places, *width),
@@ -239,7 +260,7 @@ impl<'a> Planner<'a> {
         let wanted = self.options.speed.of(role);
         let layer = if self.index == 0 { self.options.first_layer_speed } else { f64::INFINITY };
         // An area of 0 gives an infinite limit, which the others overrule.
-        let melted = self.options.filament.max_volumetric_speed / area;
+        let melted = self.filament().max_volumetric_speed / area;
         feed_rate(wanted.min(layer).min(melted))
     }
 
@@ -278,10 +299,28 @@ impl<'a> Planner<'a> {
         }
     }
 
-    fn go_to(&mut self, to: Place) {
+    /// With the right tool to where a bead begins.
+    fn come_to(&mut self, place: Place, tool: u8) {
         if self.start.is_none() {
-            self.start = Some(to);
-        } else if self.at != to {
+            self.take_tool(tool);
+            self.first_tool = tool;
+            self.start = Some(place);
+        } else if self.tool != tool {
+            let (from, layer, z) = (self.tool, self.index, self.z);
+            let change = Change { from, to: tool, layer, place, from_z: z, to_z: z, retracted: 0 };
+            change.moves(self.options, &mut self.moves);
+            self.take_tool(tool);
+            self.printed = Printed::default();
+        } else {
+            return self.go_to(place);
+        }
+        self.via.clear();
+        self.crosses_outline = false;
+        self.at = place;
+    }
+
+    fn go_to(&mut self, to: Place) {
+        if self.at != to {
             let stops = || std::iter::once(self.at).chain(self.via.iter().copied());
             let distance = stops().zip(stops().skip(1).chain([to])).map(|(a, b)| a.distance(b)).sum();
             let wipe = &self.wipe_way();
@@ -404,17 +443,19 @@ impl Hop<'_> {
 }
 
 impl LayerPlan {
-    /// Adds up the moves. `filament_area` is in mm2.
-    pub(super) fn summary(&self, filament_area: f64) -> LayerSummary {
-        let account = Account::of(self.start, &self.moves, &self.times, filament_area);
+    /// Adds up the moves.
+    pub(super) fn summary(&self, options: &GcodeOptions) -> LayerSummary {
+        let account = Account::of(self.start, &self.moves, &self.times, self.tools[0], options);
         LayerSummary {
             index: self.index,
             print_z: self.print_z,
             height: self.height,
             stops: (!self.moves.is_empty()).then(|| Stops { start: self.start.mm(), end: account.end.mm() }),
             fan: self.fan,
+            tools: self.tools,
             time_s: account.time_s,
-            filament_mm: account.filament as f64 / FILAMENT_STEPS,
+            filament_mm: account.filament_mm(),
+            second_filament_mm: account.filament[1] as f64 / FILAMENT_STEPS,
             travel_mm: account.travel_mm,
             retractions: account.retractions,
             by_role: account.by_role,
@@ -429,15 +470,22 @@ impl LayerPlan {
 pub(super) struct Account {
     pub(super) end: Place,
     pub(super) time_s: f64,
-    /// Filament of beads, in steps.
-    pub(super) filament: i64,
+    /// Filament of beads, in steps, by tool.
+    pub(super) filament: [i64; TOOLS],
     pub(super) travel_mm: f64,
     pub(super) retractions: u32,
     pub(super) by_role: BTreeMap<Role, RoleUse>,
 }
 
 impl Account {
-    pub(super) fn of(start: Place, moves: &[Move], times: &[f64], filament_area: f64) -> Account {
+    pub(super) fn of(
+        start: Place,
+        moves: &[Move],
+        times: &[f64],
+        mut tool: u8,
+        options: &GcodeOptions,
+    ) -> Account {
+        let area = |tool: u8| filament_area(options.filament_of(tool).diameter);
         let mut sum = Account { end: start, ..Account::default() };
         let mut role = Role::Prime;
         let mut beads = BeadSum::default();
@@ -446,8 +494,12 @@ impl Account {
             sum.time_s += time;
             match step {
                 Move::Role(next) => {
-                    sum.close(role, std::mem::take(&mut beads), filament_area);
+                    sum.close(role, std::mem::take(&mut beads), tool, area(tool));
                     role = next;
+                }
+                Move::Tool { to, .. } => {
+                    sum.close(role, std::mem::take(&mut beads), tool, area(tool));
+                    tool = to;
                 }
                 Move::Extrude { to, filament, .. } => {
                     beads.filament += i64::from(filament);
@@ -471,18 +523,23 @@ impl Account {
                 Move::Width(_) | Move::Fan(_) | Move::Acceleration(_) | Move::Lift { .. } => {}
             }
         }
-        sum.close(role, beads, filament_area);
+        sum.close(role, beads, tool, area(tool));
         sum
     }
 
-    /// Books the beads since the last change of role.
-    fn close(&mut self, role: Role, beads: BeadSum, filament_area: f64) {
+    /// Filament of all tools, mm.
+    pub(super) fn filament_mm(&self) -> f64 {
+        self.filament.iter().sum::<i64>() as f64 / FILAMENT_STEPS
+    }
+
+    /// Books the beads since the last change of role or tool.
+    fn close(&mut self, role: Role, beads: BeadSum, tool: u8, filament_area: f64) {
         if beads.length > 0.0 {
             let volume_mm3 = beads.filament as f64 / FILAMENT_STEPS * filament_area;
             let used = RoleUse { length_mm: beads.length, volume_mm3, time_s: beads.time };
             self.by_role.entry(role).or_default().add(used);
         }
-        self.filament += beads.filament;
+        self.filament[usize::from(tool)] += beads.filament;
     }
 }
 

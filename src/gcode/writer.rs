@@ -90,11 +90,23 @@ impl Writer {
                 let feed = self.new_feed(feed);
                 self.line(|line| line.text(b"G1 E").hundred_thousandths(i64::from(filament)).feed(feed));
             }
+            Move::Tool { from, to, nozzle, standby } => self.tool(from, to, nozzle, standby),
             Move::Lift { z, feed } => {
                 let feed = self.new_feed(feed);
                 self.line(|line| line.text(b"G1 Z").thousandths(i64::from(z)).feed(feed));
             }
         }
+    }
+
+    /// Temperatures by tool number where the old tool cools; the new one is the active one by then.
+    fn tool(&mut self, from: u8, to: u8, nozzle: u16, standby: u16) {
+        if standby > 0 {
+            self.line(|line| line.text(b"M104 T").integer(from.into()).text(b" S").integer(standby.into()));
+        }
+        self.line(|line| line.text(b"T").integer(to.into()));
+        self.line(|line| line.text(b"M109 S").integer(nozzle.into()));
+        // Firmwares may move for the change.
+        (self.at, self.feed) = (None, None);
     }
 
     /// Appends a comment of one name and one value, both without line feeds.

@@ -8,6 +8,7 @@ mod compare;
 mod place;
 mod range;
 mod report;
+mod tools;
 mod turn;
 
 use std::fmt;
@@ -17,6 +18,8 @@ use glam::DMat4;
 pub use compare::{Alternative, Alternatives};
 pub use place::{FitError, Placed, arrange, place_as_told, place_on_bed};
 pub use range::{PRINT_RESOLUTION, RangeMeta, RangePlan, RangeResult, Share};
+pub use tools::ToolError;
+use tools::check_tools;
 use turn::{Turned, turn_models, turn_standing};
 
 pub use report::{AdhesionReport, FilamentReport, ModelReport, Report, SupportReport, Timing, Warning};
@@ -86,6 +89,8 @@ pub enum JobError {
     Adhesion(AdhesionError),
     /// A start or end code of the settings cannot be used.
     Gcode(GcodeError),
+    /// Two tools cannot be used as asked.
+    Tools(ToolError),
     /// [`Job::finish`] was called before this layer was added: a bug of the caller.
     LayerMissing {
         /// The first missing layer.
@@ -102,6 +107,7 @@ impl fmt::Display for JobError {
             JobError::Support(error) => error.fmt(f),
             JobError::Adhesion(error) => error.fmt(f),
             JobError::Gcode(error) => error.fmt(f),
+            JobError::Tools(error) => error.fmt(f),
             JobError::LayerMissing { index } => write!(f, "layer {index} was never worked"),
         }
     }
@@ -125,6 +131,8 @@ pub struct Job {
     seams: Vec<SeamLine>,
     /// See [`RangePlan::line_density`].
     line_density: f64,
+    /// For each layer the beads of the second tool that come after the part.
+    after: Vec<Vec<Path>>,
     orientation: Option<OrientationReport>,
     adhesion: AdhesionReport,
     /// Rail and teeth to look at; after [`Job::prepare`], only with teeth.
@@ -142,6 +150,7 @@ impl Job {
     pub fn new(models: &[NamedModel], settings: Settings, clock: Clock) -> Result<Job, JobError> {
         let started_ms = clock();
         crate::gcode::check_templates(&settings.printer).map_err(JobError::Gcode)?;
+        check_tools(&settings).map_err(JobError::Tools)?;
         let turned = turn_models(models, &settings)?;
         let meshes: Vec<&Mesh> = turned.meshes.iter().collect();
         let Placed { mesh, placements } = place_on_bed(&meshes, &settings.printer).map_err(JobError::Fit)?;
@@ -191,6 +200,7 @@ impl Job {
             seams: Vec::new(),
             line_density: settings.infill.density,
             teeth: None,
+            after: Vec::new(),
             support: None,
             adhesion: AdhesionReport::default(),
             timing: Timing::default(),
@@ -253,6 +263,8 @@ impl Job {
         } else {
             self.raise_on(foundation);
         }
+        let arranged = tools::order_tools(&mut self.laid, &self.mesh, &self.specs, &self.settings);
+        self.after = arranged.map_err(JobError::Tools)?;
         self.layers = vec![None; self.specs.len()];
         Ok(())
     }
@@ -404,6 +416,7 @@ impl Job {
             seams: self.seams.clone(),
             line_density: self.line_density,
             laid: self.laid[first.min(self.laid.len())..last.min(self.laid.len())].to_vec(),
+            after: self.after[first.min(self.after.len())..last.min(self.after.len())].to_vec(),
         }
     }
 

@@ -46,6 +46,8 @@ pub struct RangePlan {
     /// For each layer to print what the global phase has laid, base layers and supports, in
     /// printing order; printed before the part.
     pub laid: Vec<Vec<Path>>,
+    /// For each layer to print what another tool lays after the part.
+    pub after: Vec<Vec<Path>>,
 }
 
 /// A range made ready for an engine that does not hold the job.
@@ -202,6 +204,7 @@ fn lay_paths(
 
     let mut parts = LayerParts { walls: walls.loops, ..LayerParts::default() };
     parts.foundation = plan.laid.get(place - plan.first).cloned().unwrap_or_default();
+    parts.after = plan.after.get(place - plan.first).cloned().unwrap_or_default();
     let nozzle = settings.printer.nozzle_diameter;
     let mut gaps = vec![walls.thin_inner];
     for region in regions {

@@ -34,6 +34,8 @@ crate::options! {
         everywhere: bool = true, "Also on the part";
         /// Also in cavities that are closed all around and could never be emptied.
         internal: bool = false, "Also in closed cavities";
+        /// The extruder that prints supports: 0, or 1 for a second material.
+        tool: u32 = 0, "Extruder for supports", "", 0.0..=1.0;
         /// Width of a support's line.
         line_width: f64 = 0.4, "Line width", "mm", 0.1..=2.0;
         /// Thin crossing plates.

@@ -5,6 +5,7 @@ pub mod infill;
 pub mod medial;
 pub mod order;
 mod route;
+pub mod prime_tower;
 pub mod seam;
 pub mod travel;
 pub mod walls;

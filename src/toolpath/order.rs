@@ -21,6 +21,8 @@ pub struct LayerParts {
     pub fills: Vec<Path>,
     /// Fills whose order and direction are given, such as monotonic lines.
     pub rows: Vec<Vec<Path>>,
+    /// What another tool lays: printed last and in the given order.
+    pub after: Vec<Path>,
 }
 
 /// A layer's paths in printing order.
@@ -53,6 +55,7 @@ pub fn order_layer(parts: LayerParts, outline: &PolygonSet, layer: u32, seam: Se
         order_walls(std::mem::take(&mut island.walls), seam, &mut here, &mut paths);
         order_fills(&island, &mut here, goal, &mut paths);
     }
+    paths.extend(parts.after);
     let ways = find_ways(&paths, outline);
     LayerPaths { paths, ways }
 }

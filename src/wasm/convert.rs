@@ -59,7 +59,9 @@ pub(super) fn job_error(cause: JobError) -> Thrown {
     let name = match cause {
         JobError::Fit(_) => "FitError",
         JobError::Empty | JobError::Orientation(_) => "ModelError",
-        JobError::Gcode(_) | JobError::Adhesion(_) | JobError::Support(_) => "SettingsError",
+        JobError::Gcode(_) | JobError::Adhesion(_) | JobError::Support(_) | JobError::Tools(_) => {
+            "SettingsError"
+        }
         JobError::LayerMissing { .. } => "InternalError",
     };
     thrown(name, cause)
