@@ -149,8 +149,7 @@ impl Job {
     /// Arranges the models on the bed and plans the layers.
     pub fn new(models: &[NamedModel], settings: Settings, clock: Clock) -> Result<Job, JobError> {
         let started_ms = clock();
-        crate::gcode::check_templates(&settings.printer).map_err(JobError::Gcode)?;
-        check_tools(&settings).map_err(JobError::Tools)?;
+        check_printer(&settings)?;
         let turned = turn_models(models, &settings)?;
         let meshes: Vec<&Mesh> = turned.meshes.iter().collect();
         let Placed { mesh, placements } = place_on_bed(&meshes, &settings.printer).map_err(JobError::Fit)?;
@@ -167,7 +166,7 @@ impl Job {
         clock: Clock,
     ) -> Result<Job, JobError> {
         let started_ms = clock();
-        crate::gcode::check_templates(&settings.printer).map_err(JobError::Gcode)?;
+        check_printer(&settings)?;
         let turned = turn_standing(models, placements, &settings)?;
         let meshes: Vec<&Mesh> = models.iter().map(|m| &m.model.mesh).collect();
         let placed = place_as_told(&meshes, &turned.turns, &settings.printer).map_err(JobError::Fit)?;
@@ -515,6 +514,12 @@ pub struct Finished {
 /// Name and version of this engine.
 pub fn engine_name() -> String {
     format!("Foothold {}", env!("CARGO_PKG_VERSION"))
+}
+
+/// Refuses templates with unknown placeholders and tools that are not there.
+fn check_printer(settings: &Settings) -> Result<(), JobError> {
+    crate::gcode::check_templates(&settings.printer).map_err(JobError::Gcode)?;
+    check_tools(settings).map_err(JobError::Tools)
 }
 
 fn model_warnings(models: &[NamedModel]) -> Vec<Warning> {
