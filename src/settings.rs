@@ -6,8 +6,8 @@ use serde_json::{Map, Value};
 
 use crate::adhesion::AdhesionOptions;
 use crate::gcode::{
-    AccelerationOptions, CoolingOptions, FilamentOptions, GcodeOptions, PrinterOptions, RetractionOptions,
-    SpeedOptions,
+    AccelerationOptions, CoolingOptions, FilamentOptions, GcodeOptions, OutputOptions, PrinterOptions,
+    RetractionOptions, SpeedOptions,
 };
 use crate::options::{Checked, OutOfRange, join_path};
 use crate::orientation::OrientationOptions;
@@ -16,6 +16,7 @@ use crate::region::shell::SkinOptions;
 use crate::slice::LayerOptions;
 use crate::support::SupportOptions;
 use crate::toolpath::infill::InfillOptions;
+use crate::toolpath::ironing::IroningOptions;
 use crate::toolpath::prime_tower::PrimeTowerOptions;
 use crate::toolpath::seam::SeamOptions;
 use crate::toolpath::walls::WallOptions;
@@ -39,6 +40,8 @@ crate::options! {
         skin: group SkinOptions;
         /// What fills the inside.
         infill: group InfillOptions;
+        /// Smoothing of top skins.
+        ironing: group IroningOptions;
         /// Where loops start.
         seam: group SeamOptions;
         /// Which way up the part is printed.
@@ -57,6 +60,8 @@ crate::options! {
         cooling: group CoolingOptions;
         /// Pulling the filament back for travels.
         retraction: group RetractionOptions;
+        /// What the file holds besides the moves of the print.
+        gcode: group OutputOptions;
     }
 }
 
@@ -149,6 +154,8 @@ impl Settings {
             retraction: self.retraction.clone(),
             acceleration: self.acceleration.clone(),
             cooling: self.cooling.clone(),
+            output: self.gcode.clone(),
+            ironing_flow: self.ironing.flow,
             first_layer_speed: self.first_layer.speed,
             seam_gap: self.seam.gap,
         }

@@ -21,7 +21,14 @@ fn layers(count: u32, options: &GcodeOptions) -> Vec<LayerGcode> {
         let paths = [square(Role::OuterWall, 50.0, side), square(Role::Infill, 60.0, side / 2.0)];
         let paths = if k % 5 == 4 { &paths[..0] } else { &paths[..] };
         layer_gcode(
-            &LayerInput { index: k, print_z: 0.2 * f64::from(k + 1), height: 0.2, paths, ways: &[] },
+            &LayerInput {
+                index: k,
+                print_z: 0.2 * f64::from(k + 1),
+                height: 0.2,
+                spiral: None,
+                paths,
+                ways: &[],
+            },
             options,
         )
     };

@@ -140,7 +140,7 @@ proptest! {
         options.filament.max_volumetric_speed = 100.0;
         (options.speed.outer_wall, options.speed.inner_wall, options.speed.infill) = (120.0, 200.0, 200.0);
         (options.speed.skirt, options.speed.brim, options.speed.support) = (150.0, 150.0, 150.0);
-        let input = LayerInput { index: 1, print_z: 0.4, height: 0.2, paths: &paths, ways: &[] };
+        let input = LayerInput { index: 1, print_z: 0.4, height: 0.2, spiral: None, paths: &paths, ways: &[] };
         let made = layer_gcode(&input, &options);
         let start = made.summary.stops.expect("text").start;
         let slow = simulated(&moves_of(&made.text, [start.x, start.y, 0.4]), &options.printer);
@@ -160,7 +160,14 @@ fn the_file_takes_as_long_as_its_moves() {
     let layers: Vec<_> = (0..8)
         .map(|k| {
             let print_z = 0.2 * f64::from(k + 1);
-            let input = LayerInput { index: k, print_z, height: 0.2, paths: &paths[k as usize], ways: &[] };
+            let input = LayerInput {
+                index: k,
+                print_z,
+                height: 0.2,
+                spiral: None,
+                paths: &paths[k as usize],
+                ways: &[],
+            };
             layer_gcode(&input, &options)
         })
         .collect();

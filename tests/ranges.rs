@@ -57,6 +57,17 @@ fn assert_same_bytes(mesh: &Mesh, sets: &[&str]) {
 }
 
 #[test]
+fn modes_are_the_same_in_ranges() {
+    let part = together(&[
+        cylinder(10.0, 6.0, 64),
+        moved(&sphere(Vec3::new(0.0, 0.0, 6.0), 9.0, 24, 36), Vec3::ZERO),
+    ]);
+    for mode in ["layers.spiral_vase=true", "layers.adaptive=true", "ironing.enabled=true"] {
+        assert_same_bytes(&part, &[mode, "retraction.wipe=true"]);
+    }
+}
+
+#[test]
 fn ranges_and_shares_give_the_bytes_of_the_whole() {
     let part = together(&[
         bracket(20.0, 5.0, 8.0),

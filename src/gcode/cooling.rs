@@ -78,7 +78,9 @@ fn slowable(moves: &[Move]) -> Vec<(usize, u32)> {
     for (i, step) in moves.iter().enumerate() {
         match *step {
             Move::Role(role) => is_bridge = role == Role::Bridge,
-            Move::Extrude { feed, .. } if !is_bridge => found.push((i, feed)),
+            Move::Extrude { feed, .. } | Move::Climb { feed, .. } | Move::Arc { feed, .. } if !is_bridge => {
+                found.push((i, feed));
+            }
             _ => {}
         }
     }
@@ -87,7 +89,8 @@ fn slowable(moves: &[Move]) -> Vec<(usize, u32)> {
 
 fn cap_feeds(moves: &mut [Move], beads: &[(usize, u32)], cap: u32) {
     for &(i, wanted) in beads {
-        if let Move::Extrude { feed, .. } = &mut moves[i] {
+        if let Move::Extrude { feed, .. } | Move::Climb { feed, .. } | Move::Arc { feed, .. } = &mut moves[i]
+        {
             *feed = wanted.min(cap);
         }
     }

@@ -15,6 +15,7 @@
 //! Retractions and moves of z alone start and end at rest (so does Klipper; in Marlin a few mm/s
 //! remain, some 5 ms a move). The firmware's window is taken as endless.
 
+use super::arcs::ArcShape;
 use super::{FILAMENT_STEPS, Move, Place, PrinterOptions};
 use crate::polygon::DVec2;
 
@@ -77,14 +78,24 @@ pub fn move_times(start: Place, z: i32, moves: &[Move], limits: &Limits) -> Vec<
     let (mut at, mut z) = (start, z);
     for (i, &step) in moves.iter().enumerate() {
         match step {
-            Move::Role(_) | Move::Width(_) | Move::Fan(_) => {}
+            Move::Role(_) | Move::Width(_) | Move::Height(_) | Move::Fan(_) => {}
             Move::Acceleration(acceleration) => run.accelerate(f64::from(acceleration)),
             Move::Extrude { to, filament, feed } | Move::Wipe { to, filament, feed } => {
-                run.push(i, at.way(to), feed, Some(f64::from(filament) / FILAMENT_STEPS));
+                run.push(i, Leg::straight(at.way(to)), feed, Some(f64::from(filament) / FILAMENT_STEPS));
                 at = to;
             }
+            // So little of z that only x and y set the pace.
+            Move::Climb { to, z: height, filament, feed } => {
+                run.push(i, Leg::straight(at.way(to)), feed, Some(f64::from(filament) / FILAMENT_STEPS));
+                (at, z) = (to, height);
+            }
+            Move::Arc { curve, filament, feed } => {
+                let leg = Leg::along(curve.shape(at));
+                run.push(i, leg, feed, Some(f64::from(filament) / FILAMENT_STEPS));
+                at = curve.to;
+            }
             Move::Travel { to, feed } => {
-                run.push(i, at.way(to), feed, None);
+                run.push(i, Leg::straight(at.way(to)), feed, None);
                 at = to;
             }
             Move::Filament { filament, feed } => {
@@ -132,6 +143,30 @@ fn trapezoid_time(length: f64, acceleration: f64, [entry, cruise, exit]: [f64; 3
     changes + (length - ramps).max(0.0) / peak
 }
 
+/// The way of a move in the plane.
+struct Leg {
+    length: f64,
+    /// Directions at its start and end.
+    directions: [DVec2; 2],
+    /// Radius of an arc; infinite for a straight move.
+    radius: f64,
+}
+
+impl Leg {
+    fn straight(way: DVec2) -> Leg {
+        Leg { length: way.length(), directions: [way.normalize_or_zero(); 2], radius: f64::INFINITY }
+    }
+
+    fn along(arc: ArcShape) -> Leg {
+        Leg { length: arc.length, directions: arc.tangents, radius: arc.radius }
+    }
+
+    /// Largest share of the speed that an axis has somewhere on the way.
+    fn axis_share(&self) -> f64 {
+        if self.radius.is_finite() { 1.0 } else { self.directions[0].abs().max_element() }
+    }
+}
+
 /// A move of a run, waiting for its neighbours.
 struct Block {
     /// Index of the move.
@@ -168,30 +203,31 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Adds a move by `way`, with so many mm of filament (pulled ones negative) or as a travel. A
+    /// Adds a move, with so many mm of filament (pulled ones negative) or as a travel. A
     /// firmware takes every move with filament for a bead.
-    fn push(&mut self, index: usize, way: DVec2, feed: u32, filament: Option<f64>) {
-        let length = way.length();
+    fn push(&mut self, index: usize, leg: Leg, feed: u32, filament: Option<f64>) {
+        let length = leg.length;
         if length <= 0.0 {
             return;
         }
-        let direction = way / length;
-        let fastest_axis = self.limits.max_speed_xy / direction.abs().max_element();
+        let fastest_axis = self.limits.max_speed_xy / leg.axis_share();
         let fastest_filament = match filament {
             Some(moved) if moved != 0.0 => self.limits.max_speed_e * length / moved.abs(),
             _ => f64::INFINITY,
         };
-        let cruise = mm_s(feed).min(fastest_axis).min(fastest_filament);
         let acceleration = match filament {
             Some(_) => self.accelerations[0],
             None => self.accelerations[1],
         };
+        // Round an arc v^2 = a r, as for chains of short moves.
+        let round = (acceleration * leg.radius).sqrt();
+        let cruise = mm_s(feed).min(fastest_axis).min(fastest_filament).min(round);
         let mut block = Block { index, length, acceleration, cruise, entry2: 0.0 };
         if let Some(last) = self.blocks.last() {
-            block.entry2 = self.corner(last, &block, direction);
+            block.entry2 = self.corner(last, &block, leg.directions[0]);
         }
         self.blocks.push(block);
-        self.direction = direction;
+        self.direction = leg.directions[1];
     }
 
     /// Square of the highest speed from `last` into `next`.

@@ -27,6 +27,12 @@ pub(crate) struct Dialect {
     pub(crate) accelerations: &'static str,
     /// Sets the acceleration of beads to {bead_acceleration}.
     pub(crate) bead_acceleration: &'static str,
+    /// Waits until the user goes on.
+    pub(crate) pause: &'static str,
+    /// Whether it takes the head away from the part by itself.
+    pub(crate) pause_parks: bool,
+    /// Whether G2 and G3 can be relied on.
+    pub(crate) arcs: bool,
     /// Reports progress: {percent} done, {minutes} to go.
     pub(crate) progress: &'static str,
     /// Whether printing and travelling may accelerate differently.
@@ -38,6 +44,9 @@ impl Flavor {
     pub(crate) const fn dialect(self) -> &'static Dialect {
         match self {
             Flavor::Marlin => &Dialect {
+                pause: "M0 ; go on by the button\n",
+                pause_parks: false,
+                arcs: true,
                 accelerations: "M204 P{acceleration} R{retract_acceleration} T{travel_acceleration}\n",
                 bead_acceleration: "M204 P{bead_acceleration}\n",
                 progress: "M73 P{percent} R{minutes}\n",
@@ -45,6 +54,9 @@ impl Flavor {
             },
             // One acceleration for all moves: the smaller one, as Klipper itself reads M204 P T.
             Flavor::Klipper => &Dialect {
+                pause: "PAUSE\n",
+                pause_parks: true,
+                arcs: false,
                 accelerations: "SET_VELOCITY_LIMIT ACCEL={smaller_acceleration}\n",
                 bead_acceleration: "SET_VELOCITY_LIMIT ACCEL={bead_acceleration}\n",
                 progress: "M73 P{percent} R{minutes}\n",
@@ -52,6 +64,9 @@ impl Flavor {
             },
             // RepRapFirmware's M204 knows P and T only.
             Flavor::Reprap => &Dialect {
+                pause: "M226\n",
+                pause_parks: true,
+                arcs: true,
                 accelerations: "M204 P{acceleration} T{travel_acceleration}\n",
                 bead_acceleration: "M204 P{bead_acceleration}\n",
                 progress: "M73 P{percent} R{minutes}\n",
@@ -59,11 +74,19 @@ impl Flavor {
             },
             // Q and S are the same for the silent mode.
             Flavor::Prusa => &Dialect {
+                pause: "M601\n",
+                pause_parks: true,
+                arcs: true,
                 accelerations: "M204 P{acceleration} R{retract_acceleration} T{travel_acceleration}\n",
                 bead_acceleration: "M204 P{bead_acceleration}\n",
                 progress: "M73 P{percent} R{minutes}\nM73 Q{percent} S{minutes}\n",
                 travel_acceleration: true,
             },
         }
+    }
+
+    /// Whether the firmware takes G2 and G3 without being set up for them.
+    pub const fn has_arcs(self) -> bool {
+        self.dialect().arcs
     }
 }

@@ -1,7 +1,8 @@
 //! One pass over the layers in order: what stands before, between and after them.
 
+use super::events::{EventKind, LayerEvent, PAUSE_LIFT, event_layers};
 use super::plan::{Account, Hop, feed_rate, filament_steps, micrometres, z_feed};
-use super::start::{PrintFacts, end_code, follow, start_code};
+use super::start::{PrintFacts, end_code, event_code, follow, start_code};
 use super::tool::Change;
 use super::writer::Writer;
 use super::{
@@ -91,7 +92,14 @@ pub fn join(
     let mut route = Route::new(options);
     let start = route.start(&start_text, facts);
     let has_two_tools = layers.iter().any(|layer| layer.tools != [0, 0]);
-    let ways: Vec<Way> = layers.iter().map(|layer| route.reach(layer)).collect();
+    let tops: Vec<f64> = layers.iter().map(|l| l.print_z).collect();
+    let places = event_layers(&options.output.events, &tops);
+    let mut ways = Vec::with_capacity(layers.len());
+    for (k, layer) in layers.iter().enumerate() {
+        let due = places.iter().zip(&options.output.events).filter(|&(&place, _)| place == Some(k));
+        let stops = due.map(|(_, event)| route.stop_for(event, facts)).collect::<Result<_, _>>()?;
+        ways.push(Way { stops, ..route.reach(layer) });
+    }
     let end = route.end(&end_text);
     let totals = route.totals(layers.len());
 
@@ -140,8 +148,19 @@ pub fn format_duration(seconds: f64) -> String {
 struct Way {
     /// Height of the beads among them, micrometres.
     bead_height: Option<i32>,
+    /// What happens before the moves by the user's wish.
+    stops: Vec<Stop>,
     moves: Vec<Move>,
     /// Seconds that pass before the moves (for text of other hands) and with them.
+    time_s: f64,
+}
+
+/// An event between two layers.
+struct Stop {
+    /// Moves before its text.
+    moves: Vec<Move>,
+    text: String,
+    /// Seconds of the moves and of those in the text.
     time_s: f64,
 }
 
@@ -151,7 +170,8 @@ struct Route<'a> {
     limits: Limits,
     at: Place,
     z: i32,
-    fan: u8,
+    /// Fan in force; `None` if text of other hands may have changed it.
+    fan: Option<u8>,
     tool: u8,
     /// Filament that is pulled back, in steps.
     retracted: i32,
@@ -173,7 +193,7 @@ impl<'a> Route<'a> {
             limits: Limits::of(&options.printer),
             at: Place::default(),
             z: 0,
-            fan: 0,
+            fan: Some(0),
             tool: 0,
             retracted: 0,
             wipe: Vec::new(),
@@ -194,7 +214,7 @@ impl<'a> Route<'a> {
         }
         let moves = self.prime_line(facts);
         let bead_height = (!moves.is_empty()).then(|| micrometres(self.prime_height(facts)));
-        Way { bead_height, time_s: time_s + self.book(&moves), moves }
+        Way { bead_height, time_s: time_s + self.book(&moves), moves, stops: Vec::new() }
     }
 
     /// As high as the first layer, if that is a height at which a bead can be laid alone, mm.
@@ -234,7 +254,7 @@ impl<'a> Route<'a> {
     fn reach(&mut self, layer: &LayerSummary) -> Way {
         let Some(stops) = layer.stops else { return Way::default() };
         let to = Place::of(stops.start);
-        let z = micrometres(layer.print_z);
+        let z = micrometres(layer.start_z);
         let distance = self.at.distance(to);
         let mut moves = Vec::new();
         let wipe = &std::mem::take(&mut self.wipe);
@@ -247,13 +267,14 @@ impl<'a> Route<'a> {
             let change = Change { from, to: tool, layer: layer.index, place: to, from_z, to_z: z, retracted };
             change.moves(self.options, &mut moves);
         }
-        if layer.fan[0] != self.fan {
+        if self.fan != Some(layer.fan[0]) {
             moves.push(Move::Fan(layer.fan[0]));
         }
         let time_s = self.book(&moves);
         self.at = Place::of(stops.end);
+        self.z = micrometres(layer.print_z);
         self.wipe = layer.wipe.iter().map(|&p| Place::of(p)).collect();
-        self.fan = layer.fan[1];
+        self.fan = Some(layer.fan[1]);
         self.tool = layer.tools[1];
         self.time_s += layer.time_s;
         self.filament_mm += layer.filament_mm;
@@ -263,7 +284,46 @@ impl<'a> Route<'a> {
         for (&role, &used) in &layer.by_role {
             self.by_role.entry(role).or_default().add(used);
         }
-        Way { moves, time_s, bead_height: None }
+        Way { moves, time_s, ..Way::default() }
+    }
+
+    /// An event: the nozzle leaves the part, unless the lines are the user's own.
+    fn stop_for(&mut self, event: &LayerEvent, facts: PrintFacts) -> Result<Stop, GcodeError> {
+        let dialect = self.options.printer.flavor.dialect();
+        let (label, command) = match event.kind {
+            EventKind::Custom => {
+                let text = format!(";CUSTOM_GCODE\n{}", event_code(&event.gcode, self.options, facts)?);
+                self.fan = None;
+                self.wipe.clear();
+                let time_s = self.other_hands(&text);
+                return Ok(Stop { moves: Vec::new(), text, time_s });
+            }
+            EventKind::Pause => (";PAUSE_PRINT\n", dialect.pause),
+            EventKind::FilamentChange => (";COLOR_CHANGE\n", "M600\n"),
+        };
+        let parks = event.kind == EventKind::FilamentChange || dialect.pause_parks;
+        let moves = self.leave_part(parks);
+        Ok(Stop { time_s: self.book(&moves), moves, text: format!("{label}{command}") })
+    }
+
+    /// Retracts and rises above the part, and goes to the back of the bed unless the firmware parks.
+    fn leave_part(&mut self, firmware_parks: bool) -> Vec<Move> {
+        let GcodeOptions { printer, retraction, speed, .. } = self.options;
+        let mut moves = Vec::new();
+        let pulled = filament_steps(retraction.length) - self.retracted;
+        if pulled > 0 {
+            moves.push(Move::Filament { filament: -pulled, feed: feed_rate(retraction.speed) });
+        }
+        let z = (self.z + micrometres(PAUSE_LIFT)).min(micrometres(printer.height)).max(self.z);
+        if z > self.z {
+            moves.push(Move::Lift { z, feed: z_feed(self.options) });
+        }
+        if !firmware_parks {
+            let to = Place::of(dvec2(0.0, printer.bed_size[1]));
+            moves.push(Move::Travel { to, feed: feed_rate(speed.travel) });
+        }
+        self.wipe.clear();
+        moves
     }
 
     /// A last retraction, and the end code.
@@ -275,7 +335,7 @@ impl<'a> Route<'a> {
             moves.push(Move::Filament { filament: -pulled, feed: feed_rate(retraction.speed) });
         }
         let time_s = self.book(&moves);
-        Way { moves, time_s: time_s + self.other_hands(text), bead_height: None }
+        Way { moves, time_s: time_s + self.other_hands(text), ..Way::default() }
     }
 
     /// Books text of other hands and returns its time.
@@ -308,14 +368,16 @@ impl<'a> Route<'a> {
         let account = Account::of(self.at, moves, &times, self.tool, self.options);
         for &step in moves {
             match step {
-                Move::Lift { z, .. } => self.z = z,
+                Move::Lift { z, .. } | Move::Climb { z, .. } => self.z = z,
                 Move::Filament { filament, .. } | Move::Wipe { filament, .. } => self.retracted -= filament,
-                Move::Fan(fan) => self.fan = fan,
+                Move::Fan(fan) => self.fan = Some(fan),
                 Move::Tool { to, .. } => self.tool = to,
                 Move::Role(_)
                 | Move::Width(_)
+                | Move::Height(_)
                 | Move::Acceleration(_)
                 | Move::Extrude { .. }
+                | Move::Arc { .. }
                 | Move::Travel { .. } => {}
             }
         }
@@ -394,15 +456,21 @@ impl<'a> FileWriter<'a> {
     }
 
     fn way(&mut self, way: &Way) {
-        let mut writer = Writer::after(std::mem::take(&mut self.glue), self.options.printer.flavor);
         if let Some(height) = way.bead_height {
+            let mut writer = Writer::after(std::mem::take(&mut self.glue), self.options.printer.flavor);
             writer.length_comment(b";HEIGHT:", height);
+            self.glue = writer.out;
         }
-        for &step in &way.moves {
+        self.moves(&way.moves);
+        self.passed_s += way.time_s;
+    }
+
+    fn moves(&mut self, moves: &[Move]) {
+        let mut writer = Writer::after(std::mem::take(&mut self.glue), self.options.printer.flavor);
+        for &step in moves {
             writer.write(step);
         }
         self.glue = writer.out;
-        self.passed_s += way.time_s;
     }
 
     /// Says how far the print is after `at_s` seconds, if hosts would show something new.
@@ -429,6 +497,11 @@ impl<'a> FileWriter<'a> {
             self.later_temperatures();
         }
         self.progress(self.passed_s);
+        for stop in &way.stops {
+            self.moves(&stop.moves);
+            self.text(&stop.text);
+            self.passed_s += stop.time_s;
+        }
         self.way(way);
         let mut start = 0;
         for &(offset, seconds) in &layer.marks {

@@ -15,8 +15,10 @@
 //! of the machine and not of numbers lost in rounding. The formulas and their sources are in
 //! `docs/gcode.md`.
 
+mod arcs;
 mod cooling;
 mod estimate;
+mod events;
 mod extrude;
 mod flavor;
 mod join;
@@ -29,13 +31,16 @@ mod writer;
 
 use std::collections::BTreeMap;
 
+pub use arcs::Curve;
 pub use cooling::CoolingOptions;
 pub use estimate::{Limits, move_times};
+pub use events::{EventKind, LayerEvent, check_output, event_layers};
 pub use extrude::filament_area;
 pub use flavor::Flavor;
 pub use join::{FileNotes, Joined, Piece, Totals, assemble, format_duration, join};
 pub use options::{
-    AccelerationOptions, FilamentOptions, GcodeOptions, PrinterOptions, RetractionOptions, SpeedOptions,
+    AccelerationOptions, FilamentOptions, GcodeOptions, OutputOptions, PrinterOptions, RetractionOptions,
+    SpeedOptions,
 };
 pub use plan::plan_layer;
 pub use start::{GcodeError, check_templates};
@@ -46,6 +51,15 @@ use crate::polygon::{DVec2, dvec2};
 use crate::region::{Path, Role};
 use crate::toolpath::Way;
 
+/// How the nozzle rises on a layer of a spiral.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spiral {
+    /// The first turn, on a flat layer: the bead grows from nothing to the layer's height.
+    First,
+    /// A turn above another one.
+    Next,
+}
+
 /// One layer to be written.
 #[derive(Debug, Clone, Copy)]
 pub struct LayerInput<'a> {
@@ -55,6 +69,8 @@ pub struct LayerInput<'a> {
     pub print_z: f64,
     /// Thickness of the layer, mm.
     pub height: f64,
+    /// Whether the nozzle rises from the layer's bottom to its top along the beads, as a vase's does.
+    pub spiral: Option<Spiral>,
     /// Beads in printing order.
     pub paths: &'a [Path],
     /// The way to each path. A path without an entry is reached straight across an outline.
@@ -79,6 +95,8 @@ pub struct LayerSummary {
     pub print_z: f64,
     /// Thickness of the layer, mm.
     pub height: f64,
+    /// Height of the nozzle at the start, mm: `print_z`, or the layer's bottom on a spiral.
+    pub start_z: f64,
     /// Length of the layer's text in bytes.
     pub text_len: u32,
     /// Where the text takes over and lets go; `None` if there is no text.
@@ -181,6 +199,8 @@ pub enum Move {
     Role(Role),
     /// Beads from here on are this wide; takes no time.
     Width(u32),
+    /// Beads from here on are this high; takes no time.
+    Height(u32),
     /// Fan speed, 0 to 255; takes no time.
     Fan(u8),
     /// Beads from here on accelerate by so many mm/s2; takes no time.
@@ -189,6 +209,26 @@ pub enum Move {
     Extrude {
         /// Where it ends.
         to: Place,
+        /// Filament pushed.
+        filament: i32,
+        /// Feed rate.
+        feed: u32,
+    },
+    /// A straight bead on which the nozzle rises.
+    Climb {
+        /// Where it ends.
+        to: Place,
+        /// Height of the nozzle there.
+        z: i32,
+        /// Filament pushed.
+        filament: i32,
+        /// Feed rate.
+        feed: u32,
+    },
+    /// A bead along an arc.
+    Arc {
+        /// The arc, from where the nozzle is.
+        curve: Curve,
         /// Filament pushed.
         filament: i32,
         /// Feed rate.

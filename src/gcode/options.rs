@@ -1,6 +1,7 @@
 //! What printer, filament, speeds and retraction a file is written for.
 
 use super::cooling::CoolingOptions;
+use super::events::LayerEvent;
 use super::flavor::Flavor;
 use crate::region::Role;
 
@@ -195,6 +196,21 @@ crate::options! {
     }
 }
 
+crate::options! {
+    /// What the file holds besides the moves of the print.
+    pub struct OutputOptions {
+        /// Writes beads that follow a circle as arcs, G2 and G3: smaller files that older boards read
+        /// faster.
+        arc_fitting: bool = false, "Arcs";
+        /// How far an arc may be from the straight pieces that it replaces.
+        arc_tolerance: f64 = 0.0125, "Arc tolerance", "mm", 0.001..=0.02;
+        /// Pauses, changes of filament and lines of your own, each before a layer given by its number
+        /// (counted from 0) or by a height: `[{"layer": 10, "kind": "pause"}, {"z": 5, "kind":
+        /// "filament_change"}, {"z": 8, "kind": "custom", "gcode": "M117 half-way"}]`.
+        events: Vec<LayerEvent> = Vec::new(), "At layers";
+    }
+}
+
 impl AccelerationOptions {
     /// Acceleration asked for beads of a role, mm/s2; 0 takes the printer's.
     pub fn of(&self, role: Role) -> f64 {
@@ -272,6 +288,10 @@ pub struct GcodeOptions {
     pub acceleration: AccelerationOptions,
     /// Settings `cooling.*`.
     pub cooling: CoolingOptions,
+    /// Settings `gcode.*`.
+    pub output: OutputOptions,
+    /// Setting `ironing.flow`: beads that iron are so much flatter than their layer. Default 0.15.
+    pub ironing_flow: f64,
     /// Setting `first_layer.speed`, mm/s: no bead of the first layer is printed faster. Default 25.
     pub first_layer_speed: f64,
     /// Setting `seam.gap`, mm: closed walls end this much before their start. Default 0.
@@ -289,6 +309,8 @@ impl Default for GcodeOptions {
             retraction: RetractionOptions::default(),
             acceleration: AccelerationOptions::default(),
             cooling: CoolingOptions::default(),
+            output: OutputOptions::default(),
+            ironing_flow: 0.15,
             first_layer_speed: 25.0,
             seam_gap: 0.0,
         }

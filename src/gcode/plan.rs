@@ -1,5 +1,7 @@
 //! Paths of one layer, in printing order, to the moves of the machine.
 
+use super::Spiral;
+use super::arcs::fit_arc;
 use super::cooling::{Fan, Stretch, slow_down};
 use super::extrude::{Feeder, filament_area};
 use super::tool::{Change, TOOLS};
@@ -117,6 +119,8 @@ struct Planner<'a> {
     index: u32,
     height: f64,
     z: i32,
+    spiral: Option<Climb>,
+    stated_height: f64,
     feeder: Feeder,
     /// State of the machine while the moves are laid down.
     start: Option<Place>,
@@ -134,6 +138,39 @@ struct Planner<'a> {
     moves: Vec<Move>,
 }
 
+/// How far the nozzle has come up a turn of a spiral.
+#[derive(Clone, Copy)]
+struct Climb {
+    is_first: bool,
+    /// Length of the turn and of what is laid of it, mm.
+    length: f64,
+    laid: f64,
+    /// Heights at its start and end, mm.
+    bottom: f64,
+    top: f64,
+}
+
+impl Climb {
+    fn of(spiral: Spiral, layer: &LayerInput<'_>) -> Climb {
+        Climb {
+            is_first: spiral == Spiral::First,
+            length: layer.paths.iter().map(Path::length).sum(),
+            laid: 0.0,
+            bottom: layer.print_z - layer.height,
+            top: layer.print_z,
+        }
+    }
+
+    /// Goes on by `step` mm: the height there, and the bead's share of its full flow on the way.
+    fn rise(&mut self, step: f64) -> (i32, f64) {
+        let share = |laid: f64| (laid / self.length).clamp(0.0, 1.0);
+        let (from, to) = (share(self.laid), share(self.laid + step));
+        self.laid += step;
+        let flow = if self.is_first { (from + to) / 2.0 } else { 1.0 };
+        (micrometres(self.bottom + (self.top - self.bottom) * to), flow)
+    }
+}
+
 /// A path that has just been printed.
 #[derive(Default)]
 struct Printed {
@@ -148,7 +185,9 @@ impl<'a> Planner<'a> {
             options,
             index: layer.index,
             height: layer.height,
-            z: micrometres(layer.print_z),
+            z: micrometres(layer.print_z - if layer.spiral.is_some() { layer.height } else { 0.0 }),
+            spiral: layer.spiral.map(|spiral| Climb::of(spiral, layer)),
+            stated_height: layer.height,
             feeder: Feeder::new(options.filament.diameter),
             start: None,
             first_tool: 0,
@@ -195,15 +234,32 @@ impl<'a> Planner<'a> {
 
     /// Beads of one width along the whole path.
     fn uniform(&mut self, path: &Path, places: &[Place], width: f64) {
-        let area = Bead { width, height: self.height }.area();
+        let area = Bead { width, height: self.bead_height(path.role) }.area();
         let feed = self.bead_feed(path.role, area);
         self.state_width(micrometres(width).max(0) as u32);
-        for &to in &places[1..] {
-            self.bead(to, area, feed);
+        let mut line: Vec<Place> = places.iter().copied().chain(self.closing_end(path, places)).collect();
+        line.dedup();
+        let mut rest = &line[..];
+        while rest.len() > 1 {
+            let step = self.arc(rest, area, feed).unwrap_or_else(|| {
+                self.bead(rest[1], area, feed);
+                1
+            });
+            rest = &rest[step..];
         }
-        if let Some(end) = self.closing_end(path, places) {
-            self.bead(end, area, feed);
-        }
+    }
+
+    /// A bead along as many of these places as lie on an arc; how many pieces it replaces. It has the
+    /// plastic of all of them.
+    fn arc(&mut self, places: &[Place], area: f64, feed: u32) -> Option<usize> {
+        let output = &self.options.output;
+        let straight = !output.arc_fitting || self.spiral.is_some();
+        let (last, curve) = (!straight).then(|| fit_arc(places, output.arc_tolerance)).flatten()?;
+        let pieces = places[..=last].windows(2);
+        let filament = pieces.map(|w| self.feeder.filament(area * w[0].distance(w[1]))).sum();
+        self.moves.push(Move::Arc { curve, filament, feed });
+        self.at = curve.to;
+        Some(last)
     }
 
     /// Beads whose width changes linearly from point to point. Missing widths repeat the last one.
@@ -239,7 +295,7 @@ impl<'a> Planner<'a> {
         for k in 0..pieces {
             let share = |part: f64| (f64::from(k) + part) / f64::from(pieces);
             let width = from_width + (to_width - from_width) * share(0.5);
-            let area = Bead { width, height: self.height }.area();
+            let area = Bead { width, height: self.bead_height(role) }.area();
             self.state_nearly(width, area);
             let piece_end = if k + 1 == pieces { to } else { Place::of(start.lerp(end, share(1.0))) };
             self.bead(piece_end, area, self.bead_feed(role, area));
@@ -250,9 +306,20 @@ impl<'a> Planner<'a> {
         if to == self.at {
             return;
         }
-        let filament = self.feeder.filament(area * self.at.distance(to));
-        self.moves.push(Move::Extrude { to, filament, feed });
+        let length = self.at.distance(to);
+        let climb = self.spiral.as_mut().map(|climb| climb.rise(length));
+        let flow = climb.map_or(1.0, |(_, flow)| flow);
+        let filament = self.feeder.filament(area * length * flow);
+        self.moves.push(match climb {
+            Some((z, _)) => Move::Climb { to, z, filament, feed },
+            None => Move::Extrude { to, filament, feed },
+        });
         self.at = to;
+    }
+
+    /// Height of a role's beads, mm.
+    fn bead_height(&self, role: Role) -> f64 {
+        if role == Role::Ironing { self.height * self.options.ironing_flow } else { self.height }
     }
 
     /// Feed rate of a bead: its role's, the first layer's and the nozzle's limit.
@@ -269,6 +336,11 @@ impl<'a> Planner<'a> {
             self.role = Some(role);
             self.stated_width = None;
             self.moves.push(Move::Role(role));
+        }
+        let height = self.bead_height(role);
+        if self.stated_height != height {
+            self.stated_height = height;
+            self.moves.push(Move::Height(micrometres(height) as u32));
         }
         let first = if self.index == 0 { self.options.acceleration.first_layer } else { 0.0 };
         let own = [first, self.options.acceleration.of(role), self.options.printer.acceleration];
@@ -292,8 +364,9 @@ impl<'a> Planner<'a> {
 
     /// States a width unless the stated one gives nearly the same flow.
     fn state_nearly(&mut self, width: f64, area: f64) {
-        let stated =
-            self.stated_width.map(|w| Bead { width: f64::from(w) / 1000.0, height: self.height }.area());
+        let stated = self
+            .stated_width
+            .map(|w| Bead { width: f64::from(w) / 1000.0, height: self.stated_height }.area());
         if stated.is_none_or(|s| (s - area).abs() > WIDTH_TOLERANCE * area) {
             self.state_width(micrometres(width).max(0) as u32);
         }
@@ -395,7 +468,7 @@ impl Hop<'_> {
     pub(super) fn moves(&self, options: &GcodeOptions, moves: &mut Vec<Move>) {
         let retraction = &options.retraction;
         let reaches = self.distance >= retraction.min_travel && retraction.length > 0.0;
-        let long = reaches && self.oozes_outside;
+        let long = reaches && self.oozes_outside && self.distance > 0.0;
         let pulled =
             if long { filament_steps(retraction.length).max(self.retracted) } else { self.retracted };
         let hop = if long { micrometres(retraction.z_hop) } else { 0 };
@@ -450,6 +523,7 @@ impl LayerPlan {
             index: self.index,
             print_z: self.print_z,
             height: self.height,
+            start_z: f64::from(self.z) / 1000.0,
             stops: (!self.moves.is_empty()).then(|| Stops { start: self.start.mm(), end: account.end.mm() }),
             fan: self.fan,
             tools: self.tools,
@@ -501,11 +575,17 @@ impl Account {
                     sum.close(role, std::mem::take(&mut beads), tool, area(tool));
                     tool = to;
                 }
-                Move::Extrude { to, filament, .. } => {
+                Move::Extrude { to, filament, .. } | Move::Climb { to, filament, .. } => {
                     beads.filament += i64::from(filament);
                     beads.length += sum.end.distance(to);
                     beads.time += time;
                     sum.end = to;
+                }
+                Move::Arc { curve, filament, .. } => {
+                    beads.filament += i64::from(filament);
+                    beads.length += curve.shape(sum.end).length;
+                    beads.time += time;
+                    sum.end = curve.to;
                 }
                 Move::Travel { to, .. } => {
                     sum.travel_mm += sum.end.distance(to);
@@ -520,7 +600,11 @@ impl Account {
                     let before = std::mem::replace(&mut pulled_back, filament < 0);
                     sum.retractions += u32::from(filament < 0 && !before);
                 }
-                Move::Width(_) | Move::Fan(_) | Move::Acceleration(_) | Move::Lift { .. } => {}
+                Move::Width(_)
+                | Move::Height(_)
+                | Move::Fan(_)
+                | Move::Acceleration(_)
+                | Move::Lift { .. } => {}
             }
         }
         sum.close(role, beads, tool, area(tool));

@@ -9,7 +9,7 @@ use std::fmt;
 const KNOWN_STATE: &str = "G21 ; millimetres\nG90 ; absolute positions\nM83 ; relative extrusion\n";
 
 /// Names that templates may use in braces.
-const PLACEHOLDERS: [&str; 19] = [
+pub(super) const PLACEHOLDERS: [&str; 19] = [
     "acceleration",
     "bed_size_x",
     "bed_size_y",
@@ -34,7 +34,7 @@ const PLACEHOLDERS: [&str; 19] = [
 /// How far the head rises above the print before it goes away ({park_z}), mm.
 const PARK_ABOVE: f64 = 10.0;
 
-/// What is wrong with start or end code.
+/// What is wrong with start or end code, or with settings `gcode.*`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum GcodeError {
     /// A word in braces that means nothing.
@@ -45,6 +45,13 @@ pub enum GcodeError {
         line: usize,
         /// The word.
         name: String,
+    },
+    /// A setting that contradicts another one, or itself.
+    Contradiction {
+        /// Path of the setting.
+        setting: String,
+        /// What is wrong.
+        cause: String,
     },
     /// A brace without its partner in the same line.
     LooseBrace {
@@ -65,6 +72,7 @@ impl fmt::Display for GcodeError {
                     PLACEHOLDERS.join(", ")
                 )
             }
+            GcodeError::Contradiction { setting, cause } => write!(f, "{setting}: {cause}"),
             GcodeError::LooseBrace { setting, line } => {
                 write!(f, "{setting}: line {line}: a brace without its partner")
             }
@@ -121,6 +129,13 @@ pub(super) fn start_code(options: &GcodeOptions, facts: PrintFacts) -> Result<St
     Ok(text)
 }
 
+/// The lines of an event ready to be written, and the known state behind them.
+pub(super) fn event_code(own: &str, options: &GcodeOptions, facts: PrintFacts) -> Result<String, GcodeError> {
+    let mut text = String::new();
+    push_block(&mut text, &expand(own, "gcode.events", |name| placeholder(name, options, facts))?);
+    Ok(text + KNOWN_STATE)
+}
+
 /// The end code ready to be written.
 pub(super) fn end_code(options: &GcodeOptions, facts: PrintFacts) -> Result<String, GcodeError> {
     let template = &options.printer.end_gcode;
@@ -146,7 +161,7 @@ fn push_block(text: &mut String, block: &str) {
 }
 
 /// Replaces the words in braces.
-fn expand(
+pub(super) fn expand(
     template: &str,
     setting: &'static str,
     value: impl Fn(&str) -> Option<String>,

@@ -6,8 +6,8 @@ use super::plan::LayerPlan;
 use super::{MARK_EVERY_S, Move, Place};
 use crate::region::Role;
 
-/// Longest line of a move: letters, signs, 10 digits and a point for each of four words, with room.
-const LINE: usize = 80;
+/// Longest line of a move: letters, signs, 10 digits and a point for each of six words, with room.
+const LINE: usize = 112;
 
 /// Name in `;TYPE:` comments, as PrusaSlicer writes them and viewers read them.
 pub const fn type_name(role: Role) -> &'static str {
@@ -65,6 +65,7 @@ impl Writer {
         match step {
             Move::Role(role) => self.comment(b";TYPE:", type_name(role).as_bytes()),
             Move::Width(width) => self.line(|line| line.text(b";WIDTH:").thousandths(i64::from(width))),
+            Move::Height(height) => self.line(|line| line.text(b";HEIGHT:").thousandths(i64::from(height))),
             Move::Fan(0) => self.out.extend_from_slice(b"M107\n"),
             Move::Fan(duty) => self.line(|line| line.text(b"M106 S").integer(u32::from(duty))),
             Move::Acceleration(acceleration) => {
@@ -77,6 +78,33 @@ impl Writer {
                 self.line(|line| {
                     line.text(b"G1")
                         .place(at, to)
+                        .text(b" E")
+                        .hundred_thousandths(i64::from(filament))
+                        .feed(feed)
+                });
+            }
+            Move::Climb { to, z, filament, feed } => {
+                let (at, feed) = (self.at.replace(to), self.new_feed(feed));
+                self.line(|line| {
+                    line.text(b"G1")
+                        .place(at, to)
+                        .text(b" Z")
+                        .thousandths(i64::from(z))
+                        .text(b" E")
+                        .hundred_thousandths(i64::from(filament))
+                        .feed(feed)
+                });
+            }
+            Move::Arc { curve, filament, feed } => {
+                let feed = self.new_feed(feed);
+                self.at = Some(curve.to);
+                self.line(|line| {
+                    line.text(if curve.clockwise { b"G2" } else { b"G3" })
+                        .place(None, curve.to)
+                        .text(b" I")
+                        .thousandths(i64::from(curve.offset.x))
+                        .text(b" J")
+                        .thousandths(i64::from(curve.offset.y))
                         .text(b" E")
                         .hundred_thousandths(i64::from(filament))
                         .feed(feed)
@@ -133,7 +161,7 @@ impl Writer {
     }
 }
 
-/// One line being put together. Numbers have at most 20 characters and there are at most four, so
+/// One line being put together. Numbers have at most 20 characters and there are at most six, so
 /// that [`LINE`] is never full.
 struct Line {
     bytes: [u8; LINE],
@@ -219,6 +247,7 @@ fn digits(value: u32) -> [u8; 5] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gcode::Curve;
 
     fn written(moves: &[Move]) -> String {
         let mut writer = Writer::after(Vec::new(), Flavor::Marlin);
@@ -250,5 +279,10 @@ mod tests {
         let to = Place { x: i32::MIN, y: i32::MIN };
         let text = written(&[Move::Extrude { to, filament: i32::MIN, feed: u32::MAX }]);
         assert_eq!(text, "G1 X-2147483.648 Y-2147483.648 E-21474.83648 F4294967295\n");
+        let curve = Curve { to, offset: to, clockwise: true };
+        let text = written(&[Move::Arc { curve, filament: i32::MIN, feed: u32::MAX }]);
+        assert!(
+            text.starts_with("G2 X-2147483.648 Y-2147483.648 I-2147483.648 J-2147483.648 E-21474.83648 F")
+        );
     }
 }

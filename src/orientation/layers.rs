@@ -23,7 +23,8 @@ impl LayerStack {
         let heights = || mesh.triangles.iter().flatten().map(|&v| f64::from(mesh.vertices[v as usize].z));
         let bottom = heights().fold(f64::INFINITY, f64::min);
         let height = (heights().fold(f64::NEG_INFINITY, f64::max) - bottom).max(0.0);
-        let options = LayerOptions { height: layer_height, first_height: layer_height };
+        let options =
+            LayerOptions { height: layer_height, first_height: layer_height, ..LayerOptions::default() };
         let slice_z: Vec<f64> =
             plan_layers(height, &options).iter().map(|layer| bottom + layer.slice_z).collect();
         let runs = runs_between(&changes(mesh, &slice_z));

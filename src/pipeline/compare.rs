@@ -74,8 +74,11 @@ impl Job {
     }
 
     fn bead_time(&self, index: u32, height: f64, paths: &[Path]) -> f64 {
-        let input = LayerInput { index, print_z: height, height, paths, ways: &[] };
-        let used = layer_gcode(&input, &self.settings.gcode_options()).summary.by_role;
+        let input = LayerInput { index, print_z: height, height, spiral: None, paths, ways: &[] };
+        let mut options = self.settings.gcode_options();
+        // The layer's other beads would make it last.
+        options.cooling.min_layer_time = 0.0;
+        let used = layer_gcode(&input, &options).summary.by_role;
         used.values().map(|u| u.time_s).sum()
     }
 }

@@ -10,6 +10,7 @@ mod range;
 mod report;
 mod tools;
 mod turn;
+mod vase;
 
 use std::fmt;
 
@@ -28,7 +29,7 @@ use crate::adhesion::{
     AdhesionError, AdhesionKind, AdhesionOptions, AdhesionWarning, FirstLayer, Foundation, RaftLayer,
     TeethDrawing, lay_foundation,
 };
-use crate::gcode::{FileNotes, GcodeError, Joined, LayerSummary, format_duration, join};
+use crate::gcode::{FileNotes, GcodeError, Joined, LayerSummary, event_layers, format_duration, join};
 use crate::mesh::LoadedModel;
 use crate::mesh::Mesh;
 use crate::orientation::{OrientationError, OrientationReport};
@@ -37,8 +38,8 @@ use crate::polygon::{DVec2, PolygonSet};
 use crate::region::first_layer::draw_in;
 use crate::region::{Bead, Path};
 use crate::settings::Settings;
-use crate::slice::heights::plan_layers;
-use crate::slice::{Axis, LayerSpec, slice_mesh};
+use crate::slice::heights::plan_layers_of;
+use crate::slice::{Axis, LayerOptions, LayerSpec, slice_mesh};
 use crate::support::{
     SupportError, SupportInput, SupportMethod, SupportOptions, SupportWarning, Supports, check_options,
     plan_supports,
@@ -87,7 +88,7 @@ pub enum JobError {
     Support(SupportError),
     /// Settings under `adhesion` that contradict each other.
     Adhesion(AdhesionError),
-    /// A start or end code of the settings cannot be used.
+    /// A start or end code cannot be used, or settings of the file or its layers contradict each other.
     Gcode(GcodeError),
     /// Two tools cannot be used as asked.
     Tools(ToolError),
@@ -114,6 +115,12 @@ impl fmt::Display for JobError {
 }
 
 impl std::error::Error for JobError {}
+
+impl JobError {
+    fn contradiction(setting: &str, cause: String) -> JobError {
+        JobError::Gcode(GcodeError::Contradiction { setting: setting.to_owned(), cause })
+    }
+}
 
 /// A slicing job: models on the bed, settings and the layer plan.
 #[derive(Debug)]
@@ -149,7 +156,7 @@ impl Job {
     /// Arranges the models on the bed and plans the layers.
     pub fn new(models: &[NamedModel], settings: Settings, clock: Clock) -> Result<Job, JobError> {
         let started_ms = clock();
-        check_printer(&settings)?;
+        let settings = checked(settings)?;
         let turned = turn_models(models, &settings)?;
         let meshes: Vec<&Mesh> = turned.meshes.iter().collect();
         let Placed { mesh, placements } = place_on_bed(&meshes, &settings.printer).map_err(JobError::Fit)?;
@@ -166,7 +173,7 @@ impl Job {
         clock: Clock,
     ) -> Result<Job, JobError> {
         let started_ms = clock();
-        check_printer(&settings)?;
+        let settings = checked(settings)?;
         let turned = turn_standing(models, placements, &settings)?;
         let meshes: Vec<&Mesh> = models.iter().map(|m| &m.model.mesh).collect();
         let placed = place_as_told(&meshes, &turned.turns, &settings.printer).map_err(JobError::Fit)?;
@@ -184,7 +191,7 @@ impl Job {
         if height <= 0.0 {
             return Err(JobError::Empty);
         }
-        let specs = plan_layers(height, &settings.layers);
+        let specs = plan_layers_of(&mesh, height, &settings.layers);
         let z_span = |t: usize| {
             let [a, b, c] = mesh.corners(t).map(|v| v.z);
             [a.min(b).min(c), a.max(b).max(c)]
@@ -265,6 +272,7 @@ impl Job {
         let arranged = tools::order_tools(&mut self.laid, &self.mesh, &self.specs, &self.settings);
         self.after = arranged.map_err(JobError::Tools)?;
         self.layers = vec![None; self.specs.len()];
+        self.warn_of_late_events();
         Ok(())
     }
 
@@ -293,6 +301,20 @@ impl Job {
         let sections = slice_mesh(&self.mesh, Axis::Z, &heights, PRINT_RESOLUTION).into_iter();
         let sections: Vec<(f64, PolygonSet)> = heights.into_iter().zip(sections.map(|s| s.area)).collect();
         chain_seams(&sections)
+    }
+
+    /// Events above the print never happen.
+    fn warn_of_late_events(&mut self) {
+        let tops: Vec<f64> = self.specs.iter().map(|spec| spec.print_z).collect();
+        let places = event_layers(&self.settings.gcode.events, &tops);
+        for i in (0..places.len()).filter(|&i| places[i].is_none()) {
+            let top = tops.last().copied().unwrap_or(0.0);
+            let message = format!(
+                "gcode.events[{i}] lies above the print, which has {} layers and is {top:.2} mm high",
+                tops.len()
+            );
+            self.warnings.push(Warning::on_job("event_above_print", message));
+        }
     }
 
     /// Supports of the whole part.
@@ -365,7 +387,7 @@ impl Job {
             bed: self.bed(),
             line_width: first_layer.line_width,
             height: layers.first_height,
-            next_height: layers.height,
+            next_height: self.specs.get(1).map_or(layers.height, |spec| spec.height),
         }
     }
 
@@ -405,8 +427,10 @@ impl Job {
 
     fn plan(&self, first: usize, last: usize) -> RangePlan {
         let halo = range::SkinNeighbours::of(&self.settings);
-        let low = first.saturating_sub(halo.below);
-        let high = (last + halo.above).min(self.specs.len());
+        // A turn of a spiral ends where the next one starts.
+        let next = usize::from(self.settings.layers.spiral_vase);
+        let low = first.saturating_sub(halo.below.max(next));
+        let high = (last + halo.above.max(next)).min(self.specs.len());
         RangePlan {
             settings: self.settings.clone(),
             specs: self.specs[low..high].to_vec(),
@@ -516,10 +540,39 @@ pub fn engine_name() -> String {
     format!("Foothold {}", env!("CARGO_PKG_VERSION"))
 }
 
-/// Refuses templates with unknown placeholders and tools that are not there.
-fn check_printer(settings: &Settings) -> Result<(), JobError> {
+/// Refuses templates with unknown placeholders, tools that are not there and settings that contradict
+/// each other; settles what a vase needs.
+fn checked(settings: Settings) -> Result<Settings, JobError> {
     crate::gcode::check_templates(&settings.printer).map_err(JobError::Gcode)?;
-    check_tools(settings).map_err(JobError::Tools)
+    crate::gcode::check_output(&settings.gcode_options()).map_err(JobError::Gcode)?;
+    check_tools(&settings).map_err(JobError::Tools)?;
+    check_heights(&settings.layers)?;
+    if settings.layers.spiral_vase { vase_of(settings) } else { Ok(settings) }
+}
+
+/// Adaptive heights need room between their limits.
+fn check_heights(options: &LayerOptions) -> Result<(), JobError> {
+    let LayerOptions { min_height, max_height, adaptive, .. } = *options;
+    if !adaptive || min_height <= max_height {
+        return Ok(());
+    }
+    let cause = format!("{min_height} mm is more than layers.max_height, {max_height} mm");
+    Err(JobError::contradiction("layers.min_height", cause))
+}
+
+/// The settings of a vase, if nothing in them is against it.
+fn vase_of(settings: Settings) -> Result<Settings, JobError> {
+    let with = |what: &str| {
+        let cause = format!("a vase cannot be printed with {what}");
+        Err(JobError::contradiction("layers.spiral_vase", cause))
+    };
+    if settings.support.method != SupportMethod::None {
+        return with("supports (support.method)");
+    }
+    if settings.adhesion.kind == AdhesionKind::Raft {
+        return with("adhesion.kind=raft");
+    }
+    Ok(vase::as_vase(settings))
 }
 
 fn model_warnings(models: &[NamedModel]) -> Vec<Warning> {

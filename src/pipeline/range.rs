@@ -3,9 +3,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Clock;
 use super::report::{Timing, Warning};
-use crate::gcode::{LayerInput, LayerSummary, layer_gcode};
+use super::{Clock, vase};
+use crate::gcode::{LayerInput, LayerSummary, Spiral, layer_gcode};
 use crate::mesh::Mesh;
 use crate::polygon::{DVec2, PolygonSet};
 use crate::region::first_layer::draw_in;
@@ -14,10 +14,11 @@ use crate::region::{Bead, Path, Role};
 use crate::settings::Settings;
 use crate::slice::{Axis, LayerSpec, Section, slice_triangles};
 use crate::toolpath::infill::{InfillLayer, fill_solid, fill_sparse, fill_surface};
+use crate::toolpath::ironing::iron;
 use crate::toolpath::medial::{ThinFill, fill_thin};
 use crate::toolpath::seam::{SeamLine, place_seams};
 use crate::toolpath::walls::lay_walls;
-use crate::toolpath::{LayerParts, LayerPaths, order_layer};
+use crate::toolpath::{LayerParts, LayerPaths, Way, order_layer};
 
 /// By how much a contour may be simplified for printing, mm: an eighth of what a printer's
 /// positioning resolves.
@@ -103,6 +104,7 @@ pub(super) fn slice_range(
     let sections = slice_triangles(mesh, triangles, Axis::Z, &heights, PRINT_RESOLUTION);
     result.meta.warnings = gap_warnings(plan, &sections);
     let areas: Vec<PolygonSet> = sections.into_iter().map(|s| s.area).collect();
+    result.meta.warnings.extend(vase::flat_warnings(plan, &areas));
     let sliced = clock();
     let exposures = expose(plan, &areas);
     let exposed = clock();
@@ -110,13 +112,19 @@ pub(super) fn slice_range(
     result.meta.timing.regions = exposed - sliced;
     let printed = areas.iter().enumerate().take(plan.last).skip(plan.first);
     for (place, area) in printed {
-        let paths = lay_paths(plan, place, area, &exposures, &mut result.meta, clock);
+        let turn = vase::turn_of(plan, place, &areas);
+        let spiral = turn.as_ref().map(|t| if t.is_first { Spiral::First } else { Spiral::Next });
+        let paths = match turn {
+            Some(turn) => LayerPaths { paths: vec![turn.wall], ways: vec![Way::ACROSS] },
+            None => lay_paths(plan, place, area, &exposures, &mut result.meta, clock),
+        };
         let before = clock();
         let spec = &plan.specs[place];
         let input = LayerInput {
             index: spec.index,
             print_z: spec.print_z,
             height: spec.height,
+            spiral,
             paths: &paths.paths,
             ways: &paths.ways,
         };
@@ -208,6 +216,9 @@ fn lay_paths(
     let nozzle = settings.printer.nozzle_diameter;
     let mut gaps = vec![walls.thin_inner];
     for region in regions {
+        if region.role == Role::TopSkin && settings.ironing.enabled {
+            parts.fills.extend(iron(&region.area, spec.height, spec.index, &settings.ironing));
+        }
         if region.role == Role::Infill {
             let layer = InfillLayer { index: spec.index, z: spec.print_z };
             let density = plan.line_density;

@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::adaptive::plan_adaptive;
+use crate::mesh::Mesh;
+
 crate::options! {
     /// Heights of the layers.
     pub struct LayerOptions {
@@ -9,6 +12,21 @@ crate::options! {
         height: f64 = 0.2, "Layer height", "mm", 0.01..=2.0;
         /// Height of the first layer; a thicker one forgives an uneven bed.
         first_height: f64 = 0.2, "First layer height", "mm", 0.01..=2.0;
+        /// Chooses the height of each layer above the first by the slope of the surface beside it, between
+        /// `min_height` and `max_height`; `height` then counts no more.
+        adaptive: bool = false, "Adaptive layer heights";
+        /// Lowest layer chosen.
+        min_height: f64 = 0.08, "Lowest layer", "mm", 0.01..=2.0;
+        /// Highest layer chosen; three quarters of the nozzle's diameter is as much as it lays well.
+        max_height: f64 = 0.28, "Highest layer", "mm", 0.01..=2.0;
+        /// How far the outlines of neighbouring layers may be apart on a slope: the width of its stairs.
+        /// Less gives finer layers.
+        adaptive_threshold: f64 = 0.2, "Width of stairs", "mm", 0.01..=10.0;
+        /// By how much neighbouring layers may differ.
+        max_height_change: f64 = 0.04, "Change from layer to layer", "mm", 0.01..=2.0;
+        /// Prints the part as a vase: above its bottom layers one wall that rises all the time, without a
+        /// seam, infill or top.
+        spiral_vase: bool = false, "Spiral vase";
     }
 }
 
@@ -25,11 +43,21 @@ pub struct LayerSpec {
     pub height: f64,
 }
 
-/// Layers of a part that is `part_height` mm tall and stands on the bed. The topmost layer is the
+/// Layers of a part that stands on the bed and is `part_height` mm tall, with heights by its surface if
+/// `options.adaptive`.
+pub fn plan_layers_of(mesh: &Mesh, part_height: f64, options: &LayerOptions) -> Vec<LayerSpec> {
+    if options.adaptive {
+        plan_adaptive(mesh, part_height, options)
+    } else {
+        plan_layers(part_height, options)
+    }
+}
+
+/// Layers of equal height of a part that is `part_height` mm tall and stands on the bed. The topmost layer is the
 /// last one whose middle lies below the part's top; a part thinner than half the first layer
 /// still gets one, cut at half its own height.
 pub fn plan_layers(part_height: f64, options: &LayerOptions) -> Vec<LayerSpec> {
-    let LayerOptions { height, first_height } = *options;
+    let LayerOptions { height, first_height, .. } = *options;
     let first = LayerSpec {
         index: 0,
         slice_z: first_height.min(part_height) / 2.0,

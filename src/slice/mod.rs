@@ -4,6 +4,7 @@
 //! infinitesimal step lower: faces and vertices in the plane need no special case, and no contour
 //! is missed or doubled.
 
+mod adaptive;
 pub mod axis;
 pub mod chain;
 pub mod heights;

@@ -2,6 +2,7 @@
 
 mod comb;
 pub mod infill;
+pub mod ironing;
 pub mod medial;
 pub mod order;
 pub mod prime_tower;
