@@ -122,6 +122,7 @@ fn a_wedge_keeps_its_volume_and_states_widths_that_fit_its_flow() {
         points: vec![dvec2(0.0, 0.0), dvec2(10.0, 0.0)],
         closed: false,
         width: Width::Varying(vec![0.3, 0.6]),
+        hang: 0.0,
     };
     let made = layer_gcode(&layer(1, std::slice::from_ref(&path)), &GcodeOptions::default());
     assert!((made.summary.by_role[&Role::GapFill].volume_mm3 - 0.814_159).abs() < 1e-4);
@@ -163,7 +164,7 @@ fn senseless_points_and_widths_do_not_panic() {
     for bad in [f64::NAN, f64::INFINITY, -1e300] {
         let points = vec![dvec2(0.0, bad), dvec2(bad, 3.0), dvec2(1.0, 2.0)];
         for width in [Width::Uniform(bad), Width::Varying(vec![bad, 0.4, bad]), Width::Varying(vec![])] {
-            let path = Path { role: Role::Infill, points: points.clone(), closed: true, width };
+            let path = Path { role: Role::Infill, points: points.clone(), closed: true, width, hang: 0.0 };
             let _ = layer_gcode(&layer(2, &[path]), &GcodeOptions::default());
         }
     }
@@ -192,7 +193,7 @@ fn some_path() -> impl Strategy<Value = Path> {
                     Width::Varying((0..points.len()).map(|i| if i % 2 == 0 { from } else { to }).collect())
                 }
             };
-            Path { role: Role::ALL[role], points, closed, width }
+            Path { role: Role::ALL[role], points, closed, width, hang: 0.0 }
         },
     )
 }

@@ -113,7 +113,8 @@ crate::options! {
         outer_wall: f64 = 30.0, "Outer wall", "mm/s", 1.0..=2000.0;
         /// Loops inside the outer wall.
         inner_wall: f64 = 50.0, "Inner walls", "mm/s", 1.0..=2000.0;
-        /// Stretches of wall with too little below them.
+        /// Stretches of wall with nothing below them. Stretches of which a half or three quarters hang
+        /// over are that much on the way from the outer wall's speed to this one.
         overhang_wall: f64 = 20.0, "Overhanging walls", "mm/s", 1.0..=2000.0;
         /// Beads that fill what is left between others.
         gap_fill: f64 = 30.0, "Gap fill", "mm/s", 1.0..=2000.0;

@@ -235,7 +235,7 @@ impl<'a> Planner<'a> {
     /// Beads of one width along the whole path.
     fn uniform(&mut self, path: &Path, places: &[Place], width: f64) {
         let area = Bead { width, height: self.bead_height(path.role) }.area();
-        let feed = self.bead_feed(path.role, area);
+        let feed = self.bead_feed(path.role, path.hang, area);
         self.state_width(micrometres(width).max(0) as u32);
         let mut line: Vec<Place> = places.iter().copied().chain(self.closing_end(path, places)).collect();
         line.dedup();
@@ -266,10 +266,10 @@ impl<'a> Planner<'a> {
     fn varying(&mut self, path: &Path, places: &[Place], widths: &[f64]) {
         let width = |i: usize| widths.get(i).or(widths.last()).copied().unwrap_or(0.0);
         for (i, &to) in places.iter().enumerate().skip(1) {
-            self.tapered(path.role, to, [width(i - 1), width(i)]);
+            self.tapered(path, to, [width(i - 1), width(i)]);
         }
         if let Some(end) = self.closing_end(path, places) {
-            self.tapered(path.role, end, [width(places.len() - 1), width(0)]);
+            self.tapered(path, end, [width(places.len() - 1), width(0)]);
         }
     }
 
@@ -287,7 +287,7 @@ impl<'a> Planner<'a> {
     }
 
     /// A straight bead from `from` to `to` wide, in pieces of one width each.
-    fn tapered(&mut self, role: Role, to: Place, [from_width, to_width]: [f64; 2]) {
+    fn tapered(&mut self, path: &Path, to: Place, [from_width, to_width]: [f64; 2]) {
         let (start, end) = (self.at.mm(), to.mm());
         let wanted = ((to_width - from_width).abs() / WIDTH_STEP).ceil();
         let room = (start.distance(end) / SHORTEST_PIECE).floor();
@@ -295,10 +295,10 @@ impl<'a> Planner<'a> {
         for k in 0..pieces {
             let share = |part: f64| (f64::from(k) + part) / f64::from(pieces);
             let width = from_width + (to_width - from_width) * share(0.5);
-            let area = Bead { width, height: self.bead_height(role) }.area();
+            let area = Bead { width, height: self.bead_height(path.role) }.area();
             self.state_nearly(width, area);
             let piece_end = if k + 1 == pieces { to } else { Place::of(start.lerp(end, share(1.0))) };
-            self.bead(piece_end, area, self.bead_feed(role, area));
+            self.bead(piece_end, area, self.bead_feed(path.role, path.hang, area));
         }
     }
 
@@ -323,8 +323,12 @@ impl<'a> Planner<'a> {
     }
 
     /// Feed rate of a bead: its role's, the first layer's and the nozzle's limit.
-    fn bead_feed(&self, role: Role, area: f64) -> u32 {
-        let wanted = self.options.speed.of(role);
+    fn bead_feed(&self, role: Role, hang: f64, area: f64) -> u32 {
+        let speed = &self.options.speed;
+        let wanted = match role {
+            Role::OverhangWall => speed.outer_wall + (speed.overhang_wall - speed.outer_wall) * hang,
+            _ => speed.of(role),
+        };
         let layer = if self.index == 0 { self.options.first_layer_speed } else { f64::INFINITY };
         // An area of 0 gives an infinite limit, which the others overrule.
         let melted = self.filament().max_volumetric_speed / area;

@@ -336,7 +336,8 @@ impl Job {
     /// The part's section in each of its layers.
     pub fn areas(&self) -> Vec<PolygonSet> {
         let heights = self.part_heights();
-        slice_mesh(&self.mesh, Axis::Z, &heights, PRINT_RESOLUTION).into_iter().map(|s| s.area).collect()
+        let sections = slice_mesh(&self.mesh, Axis::Z, &heights, PRINT_RESOLUTION);
+        sections.into_iter().map(|s| self.settings.walls.expanded(s.area)).collect()
     }
 
     /// Where the part's layers are cut, mm.
@@ -354,7 +355,7 @@ impl Job {
     pub fn first_outline(&self, kind: AdhesionKind) -> PolygonSet {
         let height = self.part_heights().first().copied().unwrap_or_default();
         let bottom = slice_mesh(&self.mesh, Axis::Z, &[height], PRINT_RESOLUTION);
-        let section = bottom.into_iter().next().unwrap_or_default().area;
+        let section = self.settings.walls.expanded(bottom.into_iter().next().unwrap_or_default().area);
         // On a raft nothing is squeezed against the bed.
         if kind == AdhesionKind::Raft { section } else { draw_in(&section, &self.settings.first_layer) }
     }
@@ -427,9 +428,10 @@ impl Job {
 
     fn plan(&self, first: usize, last: usize) -> RangePlan {
         let halo = range::SkinNeighbours::of(&self.settings);
-        // A turn of a spiral ends where the next one starts.
+        // Bridges and overhanging walls look at the layer below, skins or not; a turn of a spiral ends
+        // where the next one starts.
         let next = usize::from(self.settings.layers.spiral_vase);
-        let low = first.saturating_sub(halo.below.max(next));
+        let low = first.saturating_sub(halo.below.max(1));
         let high = (last + halo.above.max(next)).min(self.specs.len());
         RangePlan {
             settings: self.settings.clone(),

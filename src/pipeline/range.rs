@@ -7,15 +7,18 @@ use super::report::{Timing, Warning};
 use super::{Clock, vase};
 use crate::gcode::{LayerInput, LayerSummary, Spiral, layer_gcode};
 use crate::mesh::Mesh;
-use crate::polygon::{DVec2, PolygonSet};
+use crate::polygon::{DVec2, Join, PolygonSet};
+use crate::region::bridge::{Bridge, bridges};
 use crate::region::first_layer::draw_in;
-use crate::region::shell::{Exposure, Shells, divide, exposure, hair_of_walls};
-use crate::region::{Bead, Path, Role};
+use crate::region::shell::{Division, Exposure, Shells, divide, exposure, hair_of_walls};
+use crate::region::{Bead, Path, Region, Role, Width};
 use crate::settings::Settings;
 use crate::slice::{Axis, LayerSpec, Section, slice_triangles};
-use crate::toolpath::infill::{InfillLayer, fill_solid, fill_sparse, fill_surface};
+use crate::toolpath::infill::lines::{Hatch, hatch_linked};
+use crate::toolpath::infill::{InfillLayer, InfillOptions, fill_solid, fill_sparse, fill_surface};
 use crate::toolpath::ironing::iron;
 use crate::toolpath::medial::{ThinFill, fill_thin};
+use crate::toolpath::overhang::mark_overhangs;
 use crate::toolpath::seam::{SeamLine, place_seams};
 use crate::toolpath::walls::lay_walls;
 use crate::toolpath::{LayerParts, LayerPaths, Way, order_layer};
@@ -103,7 +106,7 @@ pub(super) fn slice_range(
     let heights: Vec<f64> = plan.specs.iter().map(|s| s.slice_z).collect();
     let sections = slice_triangles(mesh, triangles, Axis::Z, &heights, PRINT_RESOLUTION);
     result.meta.warnings = gap_warnings(plan, &sections);
-    let areas: Vec<PolygonSet> = sections.into_iter().map(|s| s.area).collect();
+    let areas: Vec<PolygonSet> = sections.into_iter().map(|s| plan.settings.walls.expanded(s.area)).collect();
     result.meta.warnings.extend(vase::flat_warnings(plan, &areas));
     let sliced = clock();
     let exposures = expose(plan, &areas);
@@ -114,9 +117,10 @@ pub(super) fn slice_range(
     for (place, area) in printed {
         let turn = vase::turn_of(plan, place, &areas);
         let spiral = turn.as_ref().map(|t| if t.is_first { Spiral::First } else { Spiral::Next });
+        let neighbours = Neighbours { below: place.checked_sub(1).map(|b| &areas[b]), exposures: &exposures };
         let paths = match turn {
             Some(turn) => LayerPaths { paths: vec![turn.wall], ways: vec![Way::ACROSS] },
-            None => lay_paths(plan, place, area, &exposures, &mut result.meta, clock),
+            None => lay_paths(plan, place, area, neighbours, &mut result.meta, clock),
         };
         let before = clock();
         let spec = &plan.specs[place];
@@ -184,12 +188,52 @@ impl SkinNeighbours {
     }
 }
 
+/// Fills need not follow the innermost wall closer than this, mm: they reach into it farther.
+const FILL_RESOLUTION: f64 = 0.03;
+
+/// Skins, solid and sparse infill inside the walls of the layer at `place`.
+fn divide_inside(
+    inner: &PolygonSet,
+    settings: &Settings,
+    place: usize,
+    exposures: &[Exposure],
+    bead_width: f64,
+) -> Vec<Region> {
+    let SkinNeighbours { above, below } = SkinNeighbours::of(settings);
+    let tops: Vec<&PolygonSet> = exposures[place..].iter().take(above).map(|e| &e.top).collect();
+    let bottoms: Vec<&PolygonSet> = exposures[..=place].iter().rev().take(below).map(|e| &e.bottom).collect();
+    let infill = &settings.infill;
+    let solid_below = match infill.density {
+        0.0 => 0.0,
+        1.0 => f64::INFINITY,
+        _ => infill.solid_below_area,
+    };
+    divide(inner, &Shells { tops: &tops, bottoms: &bottoms }, Division { bead_width, solid_below })
+}
+
+/// What a layer's paths depend on besides its own area.
+#[derive(Clone, Copy)]
+struct Neighbours<'a> {
+    /// Area of the layer below.
+    below: Option<&'a PolygonSet>,
+    /// Bare tops and bottoms of all layers at hand.
+    exposures: &'a [Exposure],
+}
+
+/// Lines along a bridge with this share of the usual plastic, and what is too narrow for them.
+fn fill_bridge(bridge: &Bridge, bead: Bead, flow: f64) -> (Vec<Path>, PolygonSet) {
+    let hatch = Hatch::along(bridge.direction, bead.spacing());
+    let (paths, narrow) = hatch_linked(&bridge.area, Role::Bridge, bead, hatch);
+    let width = bead.with_flow(flow).width;
+    (paths.into_iter().map(|path| Path { width: Width::Uniform(width), ..path }).collect(), narrow)
+}
+
 /// Walls, fills and foundation of one layer, in printing order.
 fn lay_paths(
     plan: &RangePlan,
     place: usize,
     area: &PolygonSet,
-    exposures: &[Exposure],
+    Neighbours { below, exposures }: Neighbours<'_>,
     meta: &mut RangeMeta,
     clock: Clock,
 ) -> LayerPaths {
@@ -203,18 +247,25 @@ fn lay_paths(
     let walls = lay_walls(&outline, bead, settings.walls.count);
 
     let before_regions = clock();
-    let SkinNeighbours { above, below } = SkinNeighbours::of(settings);
-    let tops: Vec<&PolygonSet> = exposures[place..].iter().take(above).map(|e| &e.top).collect();
-    let bottoms: Vec<&PolygonSet> = exposures[..=place].iter().rev().take(below).map(|e| &e.bottom).collect();
-    let all_solid = settings.infill.density >= 1.0;
-    let regions = divide(&walls.inner, &Shells { tops: &tops, bottoms: &bottoms }, width, all_solid);
+    // The first layer lies on the bed, and what lies on a raft has no layer below to span.
+    let over_air = below.filter(|below| !below.is_empty() && !exposures[place].bottom.is_empty());
+    let overlap = if settings.walls.count > 0 { settings.skin.overlap * width } else { 0.0 };
+    let inner = walls.inner.roughened(FILL_RESOLUTION).offset(overlap, Join::WALL);
+    let mut regions = divide_inside(&inner, settings, place, exposures, width);
+    let bridges = over_air.map_or_else(Vec::new, |below| bridges(&inner, below, width));
+    for region in &mut regions {
+        region.area = bridges.iter().fold(std::mem::take(&mut region.area), |a, b| a.difference(&b.area));
+    }
     let after_regions = clock();
 
     let mut parts = LayerParts { walls: walls.loops, ..LayerParts::default() };
     parts.foundation = plan.laid.get(place - plan.first).cloned().unwrap_or_default();
     parts.after = plan.after.get(place - plan.first).cloned().unwrap_or_default();
     let nozzle = settings.printer.nozzle_diameter;
-    let mut gaps = vec![walls.thin_inner];
+    let mut narrow_places = Vec::new();
+    // The area reaches into the walls already, as far as skins do.
+    let reach = (settings.infill.overlap - settings.skin.overlap).max(0.0);
+    let sparse = InfillOptions { overlap: reach, ..settings.infill.clone() };
     for region in regions {
         if region.role == Role::TopSkin && settings.ironing.enabled {
             parts.fills.extend(iron(&region.area, spec.height, spec.index, &settings.ironing));
@@ -222,30 +273,43 @@ fn lay_paths(
         if region.role == Role::Infill {
             let layer = InfillLayer { index: spec.index, z: spec.print_z };
             let density = plan.line_density;
-            parts.fills.extend(fill_sparse(&region.area, bead, layer, density, &settings.infill));
+            parts.fills.extend(fill_sparse(&region.area, bead, layer, density, &sparse));
         } else if matches!(region.role, Role::TopSkin | Role::BottomSkin) && settings.skin.monotonic {
             let (rows, narrow) = fill_surface(&region.area, region.role, bead, spec.index);
             parts.rows.extend(rows);
-            gaps.push(narrow);
+            narrow_places.push(narrow);
         } else {
             let (paths, narrow) = fill_solid(&region.area, region.role, bead, spec.index);
             parts.fills.extend(paths);
-            gaps.push(narrow);
+            narrow_places.push(narrow);
         }
     }
+    for bridge in bridges {
+        let (paths, narrow) = fill_bridge(&bridge, bead, settings.skin.bridge_flow);
+        parts.fills.extend(paths);
+        narrow_places.push(narrow);
+    }
     parts.fills.extend(fill_thin(&walls.thin_outer, &ThinFill::for_nozzle(nozzle, Role::OuterWall)).paths);
-    // A bead between others overlaps them with its round sides, so it is wider than its gap.
-    let overlap = bead.overlap();
-    let options = ThinFill::for_nozzle(nozzle, Role::GapFill);
-    let options = ThinFill { min_width: options.min_width - overlap, ..options };
-    for gap in gaps {
-        parts.fills.extend(fill_thin(&gap, &options).paths.into_iter().map(|path| path.widened(overlap)));
+    // A bead between others overlaps them with its round sides, so it is wider than its gap. What
+    // fills leave over has their overlap with the walls in it.
+    let gap = |by: f64| {
+        let options = ThinFill::for_nozzle(nozzle, Role::GapFill);
+        ThinFill { min_width: options.min_width - by, max_width: options.max_width - by, ..options }
+    };
+    let beside_fills = bead.overlap() - 2.0 * overlap;
+    let gaps = std::iter::once((walls.thin_inner, bead.overlap()));
+    for (area, wider) in gaps.chain(narrow_places.into_iter().map(|narrow| (narrow, beside_fills))) {
+        parts.fills.extend(fill_thin(&area, &gap(wider)).paths.into_iter().map(|path| path.widened(wider)));
     }
     let seams: Vec<DVec2> = plan.seams.iter().filter_map(|s| s.at(spec.slice_z, SEAM_REACH)).collect();
     let mut outer: Vec<&mut Path> =
         parts.walls.iter_mut().filter(|(depth, _)| *depth == 0).map(|(_, path)| path).collect();
     place_seams(&mut outer, &settings.seam, &seams, spec.index);
     let ordered = order_layer(parts, &outline, spec.index, settings.seam.position);
+    let ordered = match over_air {
+        Some(below) => mark_overhangs(ordered, below, &exposures[place].bottom, width),
+        None => ordered,
+    };
     meta.timing.regions += after_regions - before_regions;
     meta.timing.toolpath += clock() - after_regions + before_regions - started;
     ordered

@@ -1,6 +1,7 @@
 //! Grids of points and edges for neighbour queries.
 
 use super::measure::Bounds;
+use super::simplify::closest_on_segment;
 use super::{DVec2, dvec2};
 
 /// Square cells over a box, numbered row by row.
@@ -189,6 +190,26 @@ impl EdgeGrid {
         let (low, high) = (self.frame.column_and_row(a.min(b)), self.frame.column_and_row(a.max(b)));
         let columns = move |row| self.columns_met(a, b, row, low.0, high.0);
         (low.1..=high.1).flat_map(move |row| columns(row).map(move |column| self.frame.number(column, row)))
+    }
+
+    /// The point on an edge nearest to `p`, if any is within `reach` mm.
+    pub fn nearest(&self, p: DVec2, reach: f64) -> Option<DVec2> {
+        let (low, high) = (self.frame.column_and_row(p - reach), self.frame.column_and_row(p + reach));
+        let mut best: Option<DVec2> = None;
+        let mut least = reach * reach;
+        for row in low.1..=high.1 {
+            for column in low.0..=high.0 {
+                let place = self.frame.number(column, row);
+                for &(a, b, _) in &self.edges[self.starts[place] as usize..self.starts[place + 1] as usize] {
+                    let foot = closest_on_segment(p, a, b);
+                    let distance = foot.distance_squared(p);
+                    if distance <= least {
+                        (best, least) = (Some(foot), distance);
+                    }
+                }
+            }
+        }
+        best
     }
 
     fn each_cell(&mut self, a: DVec2, b: DVec2, mut visit: impl FnMut(&mut EdgeGrid, usize)) {

@@ -26,6 +26,18 @@ impl Bead {
         self.area() / self.height
     }
 
+    /// The bead of the same height with this share of the plastic.
+    pub fn with_flow(self, share: f64) -> Bead {
+        let round = PI * self.height * self.height / 4.0;
+        let area = self.area() * share;
+        let width = if area >= round {
+            (area - round) / self.height + self.height
+        } else {
+            self.height * area / round
+        };
+        Bead { width, ..self }
+    }
+
     /// By how much a bead is wider than the strip between neighbours that it exactly fills, mm: the
     /// round sides overlap by h (1 - pi / 4).
     pub fn overlap(self) -> f64 {
@@ -43,6 +55,14 @@ mod tests {
         assert!((area(0.2) - PI * 0.01).abs() < 1e-15);
         assert!((area(0.2 - 1e-12) - PI * 0.01).abs() < 1e-12);
         assert_eq!((area(0.0), area(-1.0)), (0.0, 0.0));
+    }
+
+    #[test]
+    fn flow_changes_the_area_by_its_share() {
+        let bead = Bead { width: 0.45, height: 0.2 };
+        for share in [0.1, 0.5, 0.95, 1.0, 2.0] {
+            assert!((bead.with_flow(share).area() - share * bead.area()).abs() < 1e-12, "{share}");
+        }
     }
 
     #[test]

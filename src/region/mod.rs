@@ -1,6 +1,7 @@
 //! What each area of a layer is for.
 
 mod bead;
+pub mod bridge;
 pub mod first_layer;
 pub mod overhang;
 mod path;

@@ -15,6 +15,8 @@ pub struct Path {
     pub closed: bool,
     /// Bead width along the path, mm.
     pub width: Width,
+    /// Share of the bead's width with nothing below, 0 to 1; told for [`Role::OverhangWall`] alone.
+    pub hang: f64,
 }
 
 /// Width of a bead along its path.
@@ -39,12 +41,12 @@ impl Width {
 impl Path {
     /// A closed bead of one width.
     pub fn closed(role: Role, points: Vec<DVec2>, width: f64) -> Self {
-        Path { role, points, closed: true, width: Width::Uniform(width) }
+        Path { role, points, closed: true, width: Width::Uniform(width), hang: 0.0 }
     }
 
     /// An open bead of one width.
     pub fn open(role: Role, points: Vec<DVec2>, width: f64) -> Self {
-        Path { role, points, closed: false, width: Width::Uniform(width) }
+        Path { role, points, closed: false, width: Width::Uniform(width), hang: 0.0 }
     }
 
     /// Area that the bead covers, mm2: length times width, round ends left out.

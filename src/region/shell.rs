@@ -13,6 +13,11 @@ crate::options! {
         /// Whether the lines of skins are laid one beside the other in one direction only: the surface
         /// shines evenly, for a little more travel.
         monotonic: bool = true, "Monotonic skins";
+        /// How far skins and solid infill reach into the innermost wall, as a share of the line width,
+        /// so that they hold together.
+        overlap: f64 = 0.1, "Skin overlap", "", 0.0..=0.5;
+        /// Plastic in a bridge's lines, as a share of the usual: a little less keeps them taut.
+        bridge_flow: f64 = 0.95, "Bridge flow", "", 0.1..=2.0;
     }
 }
 
@@ -63,16 +68,29 @@ pub struct Shells<'a> {
     pub bottoms: &'a [&'a PolygonSet],
 }
 
+/// How the inside is divided.
+#[derive(Debug, Clone, Copy)]
+pub struct Division {
+    /// Width of a bead, mm.
+    pub bead_width: f64,
+    /// Sparse islands smaller than this are made solid, mm2; infinite: nothing is sparse.
+    pub solid_below: f64,
+}
+
 /// Divides the area inside the walls into skins, solid infill behind them and sparse infill.
 ///
-/// Solid places narrower than half of `bead_width`, mm, are left to the sparse infill; all others
-/// reach one bead's width into it, so that their lines have something to hold on. With `all_solid`
-/// nothing is sparse.
-pub fn divide(inner: &PolygonSet, shells: &Shells, bead_width: f64, all_solid: bool) -> Vec<Region> {
+/// Solid places narrower than half a bead are left to the sparse infill; all others reach one bead's
+/// width into it, so that their lines have something to hold on.
+pub fn divide(inner: &PolygonSet, shells: &Shells, division: Division) -> Vec<Region> {
+    let Division { bead_width, solid_below } = division;
     let near_surface = || shells.tops.iter().chain(shells.bottoms).copied();
-    let solid = match all_solid {
-        true => inner.clone(),
-        false => anchored(&inner.intersection_with_any(near_surface()), inner, bead_width),
+    let (solid, sparse) = match solid_below.is_infinite() {
+        true => (inner.clone(), PolygonSet::EMPTY),
+        false => {
+            let solid = anchored(&inner.intersection_with_any(near_surface()), inner, bead_width);
+            let sparse = inner.difference(&solid);
+            without_small_islands(inner, solid, sparse, solid_below)
+        }
     };
     let bare = |exposed: Option<&&PolygonSet>, within: &PolygonSet| match exposed {
         Some(e) => within.intersection(e).opened(bead_width / 2.0, Join::WALL),
@@ -82,12 +100,28 @@ pub fn divide(inner: &PolygonSet, shells: &Shells, bead_width: f64, all_solid: b
     let below_top = solid.difference(&top_skin);
     let bottom_skin = bare(shells.bottoms.first(), &below_top);
     let regions = [
-        Region { role: Role::Infill, area: inner.difference(&solid) },
+        Region { role: Role::Infill, area: sparse },
         Region { role: Role::SolidInfill, area: below_top.difference(&bottom_skin) },
         Region { role: Role::BottomSkin, area: bottom_skin },
         Region { role: Role::TopSkin, area: top_skin },
     ];
     regions.into_iter().filter(|r| !r.area.is_empty()).collect()
+}
+
+/// Solid and sparse area after sparse islands smaller than `solid_below` mm2 went to the solid one.
+fn without_small_islands(
+    inner: &PolygonSet,
+    solid: PolygonSet,
+    sparse: PolygonSet,
+    solid_below: f64,
+) -> (PolygonSet, PolygonSet) {
+    let islands = sparse.islands();
+    if islands.iter().all(|i| i.area() >= solid_below) {
+        return (solid, sparse);
+    }
+    let large = islands.into_iter().filter(|i| i.area() >= solid_below);
+    let sparse = PolygonSet::canonical(large.flat_map(|i| i.into_set().into_contours()).collect());
+    (inner.difference(&sparse), sparse)
 }
 
 /// The solid area without hair lines, grown by one bead's width within `inner`.
@@ -101,6 +135,18 @@ mod tests {
     use super::*;
     use crate::polygon::dvec2;
 
+    const WITH_SPARSE: Division = Division { bead_width: 0.4, solid_below: 0.0 };
+    const SOLID: Division = Division { bead_width: 0.4, solid_below: f64::INFINITY };
+
+    #[test]
+    fn sparse_islands_that_are_too_small_become_solid() {
+        let two = square(10.0).union(&PolygonSet::rectangle(dvec2(20.0, 0.0), dvec2(23.0, 3.0)));
+        let regions =
+            divide(&two, &Shells { tops: &[], bottoms: &[] }, Division { solid_below: 10.0, ..WITH_SPARSE });
+        let roles: Vec<(Role, f64)> = regions.iter().map(|r| (r.role, r.area.area().round())).collect();
+        assert_eq!(roles, [(Role::Infill, 100.0), (Role::SolidInfill, 9.0)]);
+    }
+
     fn square(side: f64) -> PolygonSet {
         PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(side, side))
     }
@@ -112,7 +158,7 @@ mod tests {
         assert!((step.top.area() - 300.0).abs() < 3.0);
         assert!(step.bottom.is_empty());
 
-        let at_step = divide(&large, &Shells { tops: &[&step.top], bottoms: &[] }, 0.4, false);
+        let at_step = divide(&large, &Shells { tops: &[&step.top], bottoms: &[] }, WITH_SPARSE);
         let roles: Vec<(Role, f64)> = at_step.iter().map(|r| (r.role, r.area.area().round())).collect();
         // The bare top comes out 0.1 mm wider, and its solid area reaches 0.4 mm farther.
         let sparse = 9.5f64 * 9.5;
@@ -120,7 +166,7 @@ mod tests {
         assert!((at_step[0].area.area() - sparse).abs() < 0.01);
 
         let none = PolygonSet::EMPTY;
-        let below = divide(&large, &Shells { tops: &[&none, &step.top], bottoms: &[] }, 0.4, false);
+        let below = divide(&large, &Shells { tops: &[&none, &step.top], bottoms: &[] }, WITH_SPARSE);
         let roles: Vec<(Role, f64)> = below.iter().map(|r| (r.role, r.area.area().round())).collect();
         assert_eq!(roles, [(Role::Infill, 90.0), (Role::SolidInfill, 310.0)]);
     }
@@ -135,7 +181,7 @@ mod tests {
     #[test]
     fn the_regions_are_the_inner_area_without_overlap() {
         let (inner, top, bottom) = (square(20.0), square(12.0), square(5.0));
-        let regions = divide(&inner, &Shells { tops: &[&top], bottoms: &[&bottom] }, 0.4, true);
+        let regions = divide(&inner, &Shells { tops: &[&top], bottoms: &[&bottom] }, SOLID);
         let total: f64 = regions.iter().map(|r| r.area.area()).sum();
         assert!((total - 400.0).abs() < 1e-6);
         assert!((PolygonSet::union_all(regions.iter().map(|r| &r.area)).area() - 400.0).abs() < 1e-6);

@@ -24,6 +24,9 @@ mod bead;
 mod border;
 mod chains;
 
+pub(super) use axis::Sample;
+pub(super) use bead::ring;
+
 use crate::polygon::{DVec2, Join, Polygon, PolygonSet, by_x_then_y};
 use crate::region::{Path, Role, Width};
 

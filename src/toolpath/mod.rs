@@ -5,6 +5,7 @@ pub mod infill;
 pub mod ironing;
 pub mod medial;
 pub mod order;
+pub mod overhang;
 pub mod prime_tower;
 mod route;
 pub mod seam;

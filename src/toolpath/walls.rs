@@ -1,9 +1,14 @@
 //! Nested loops along every outline, and what they leave over.
 //!
-//! A loop is laid only where the part is thick enough for two beads side by side; thinner places
-//! are handed on, to be filled by beads of fitting width.
+//! Two beads lie side by side only where both are nearly full width; thinner places are handed on, to
+//! be filled by one bead of fitting width. Where a pair of loops leaves a strip that is too thin for
+//! a bead between them, or lacks a little room, both change their width and fill the place edge to
+//! edge, as in [Kuipers, Doubrovski, Wu, Wang 2020, "A framework for adaptive width control of dense
+//! contour-parallel toolpaths"].
 
-use crate::polygon::{Join, PolygonSet};
+mod fit;
+
+use crate::polygon::{Contour, Join, Polygon, PolygonSet};
 use crate::region::Bead;
 use crate::region::{Path, Role};
 
@@ -15,6 +20,27 @@ crate::options! {
         count: u32 = 3, "Walls", "", 0.0..=50.0;
         /// Width of the loops' beads; slicers use the nozzle's diameter and a tenth more.
         width: f64 = 0.45, "Wall line width", "mm", 0.1..=2.0;
+        /// By how much every outline is moved outward before anything else, to make up for plastic
+        /// that shrinks; negative moves it inward. Holes become smaller by it.
+        horizontal_expansion: f64 = 0.0, "Horizontal expansion", "mm", -2.0..=2.0;
+        /// By how much holes are made larger besides; negative makes them smaller.
+        hole_expansion: f64 = 0.0, "Hole expansion", "mm", -2.0..=2.0;
+    }
+}
+
+impl WallOptions {
+    /// The section of a part with `horizontal_expansion` and `hole_expansion`.
+    pub fn expanded(&self, section: PolygonSet) -> PolygonSet {
+        let grown = section.offset(self.horizontal_expansion, Join::WALL);
+        if self.hole_expansion == 0.0 {
+            return grown;
+        }
+        let with_holes = |island: Polygon| {
+            let filled = |c: &Contour| PolygonSet::from_contours(vec![c.clone()]);
+            let holes = island.holes.iter().map(|h| filled(h).offset(self.hole_expansion, Join::WALL));
+            filled(&island.outer).difference(&PolygonSet::union_all(&holes.collect::<Vec<_>>()))
+        };
+        PolygonSet::union_all(&grown.islands().into_iter().map(with_holes).collect::<Vec<_>>())
     }
 }
 
@@ -37,43 +63,99 @@ const NARROWEST_STRIP: f64 = 0.1;
 /// Area under which a layer's thin places are not worth a look, mm2.
 const NO_THIN_PLACES: f64 = 0.01;
 
+/// The like for places where beads should be wider or narrower than usual, mm2.
+const NO_CLOSE_PLACES: f64 = 0.05;
+
+/// Loops behind the outer one need not follow the outline closer than this, mm: a twentieth of a bead.
+const INNER_RESOLUTION: f64 = 0.02;
+
+/// Two beads lie side by side from this thickness on, in line widths; up to there one bead fills the
+/// place. With the usual width of 1.1 nozzles that one bead grows to twice the nozzle at most.
+const PAIR_FROM: f64 = 1.75;
+
+/// A bead between two loops is at least this wide, in line widths; the loops fill thinner strips.
+const MIDDLE_FROM: f64 = 0.5;
+
+/// Distances between the lines of two neighbouring loops that face each other, mm.
+#[derive(Debug, Clone, Copy)]
+struct Strips {
+    /// No two beads fit below this.
+    narrowest: f64,
+    /// Both have their usual width at this.
+    usual: f64,
+    /// A bead fits in between above this.
+    widest: f64,
+}
+
+impl Strips {
+    fn of(bead: Bead) -> Strips {
+        let usual = bead.spacing();
+        Strips {
+            narrowest: (PAIR_FROM - 1.0) * bead.width,
+            usual,
+            widest: usual + MIDDLE_FROM * bead.width - bead.overlap(),
+        }
+    }
+}
+
+/// Beads of loops that may change their width.
+#[derive(Debug, Clone, Copy)]
+struct FittedBead {
+    /// The usual bead.
+    bead: Bead,
+    role: Role,
+    strips: Strips,
+}
+
 /// Lays `count` loops of this bead along the outline.
 ///
-/// With s the bead's spacing, wall i runs at w/2 + i s inside the outline. Shrinking the outline by
-/// w/2 + s/2 leaves `inside`, the area within the first wall's cell; grown back by s/2 it gives the
-/// wall's centre line wherever two beads fit side by side.
+/// With s the bead's spacing, wall i runs at w/2 + i s inside the outline.
 pub fn lay_walls(outline: &PolygonSet, bead: Bead, count: u32) -> Walls {
     let spacing = bead.spacing();
+    let strips = Strips::of(bead);
     let mut walls = Walls { inner: outline.clone(), ..Walls::default() };
     let mut thin_inner = Vec::new();
     for depth in 0..count {
         if walls.inner.is_empty() {
             break;
         }
-        let to_centre = if depth == 0 { bead.width / 2.0 } else { spacing / 2.0 };
-        let inside = walls.inner.offset(-(to_centre + spacing / 2.0), Join::WALL);
-        let centre = inside.offset(spacing / 2.0, Join::WALL);
-        let thin = thin_places(&walls.inner, &centre, to_centre);
-        let role = if depth == 0 { Role::OuterWall } else { Role::InnerWall };
-        match depth {
-            0 => walls.thin_outer = thin,
-            _ => thin_inner.push(thin),
+        if depth > 0 {
+            walls.inner = walls.inner.roughened(INNER_RESOLUTION);
         }
-        let as_path = |points| (depth, Path::closed(role, points, bead.width));
-        walls.loops.extend(centre.into_contours().into_iter().map(|c| as_path(c.points)));
-        walls.inner = inside;
+        let to_centre = if depth == 0 { bead.width / 2.0 } else { spacing / 2.0 };
+        let role = if depth == 0 { Role::OuterWall } else { Role::InnerWall };
+        let lines = walls.inner.offset(-to_centre, Join::WALL);
+        // What is left where the loops are far enough apart for a bead in between.
+        let core = lines.offset(-strips.widest / 2.0, Join::WALL);
+        let roomy = core.offset(strips.widest / 2.0 + to_centre, Join::WALL);
+        if walls.inner.area() - roomy.area() >= NO_CLOSE_PLACES {
+            let close = walls.inner.difference(&roomy);
+            let centre = lines.opened(strips.narrowest / 2.0, Join::WALL);
+            let thin = thin_places(&walls.inner, &close, &centre, to_centre);
+            match depth {
+                0 => walls.thin_outer = thin,
+                _ => thin_inner.push(thin),
+            }
+            let fitted = fit::loops(centre, &close, FittedBead { bead, role, strips });
+            walls.loops.extend(fitted.into_iter().map(|path| (depth, path)));
+        } else {
+            let contours = lines.into_contours().into_iter();
+            walls.loops.extend(contours.map(|c| (depth, Path::closed(role, c.points, bead.width))));
+        }
+        walls.inner = core.offset((strips.widest - spacing) / 2.0, Join::WALL);
     }
     walls.thin_inner = PolygonSet::union_all(&thin_inner);
     walls
 }
 
-/// What of `area` the walls along `centre` do not reach, without hair-thin slivers.
-fn thin_places(area: &PolygonSet, centre: &PolygonSet, to_centre: f64) -> PolygonSet {
+/// What of `area` the walls along `centre` do not reach, without hair-thin slivers; all of it lies in
+/// `close`, and next to nothing elsewhere.
+fn thin_places(area: &PolygonSet, close: &PolygonSet, centre: &PolygonSet, to_centre: f64) -> PolygonSet {
     let reached = centre.offset(to_centre, Join::WALL);
     if area.area() - reached.area() < NO_THIN_PLACES {
         return PolygonSet::EMPTY;
     }
-    area.difference(&reached).opened(NARROWEST_STRIP / 2.0, Join::WALL)
+    close.difference(&reached).opened(NARROWEST_STRIP / 2.0, Join::WALL)
 }
 
 #[cfg(test)]
@@ -98,6 +180,18 @@ mod tests {
     }
 
     #[test]
+    fn expansion_moves_the_outline_and_holes_on_their_own() {
+        let square = |r: f64| PolygonSet::rectangle(dvec2(-r, -r), dvec2(r, r));
+        let expanded = |horizontal_expansion: f64, hole_expansion: f64| {
+            let options = WallOptions { horizontal_expansion, hole_expansion, ..WallOptions::default() };
+            options.expanded(square(10.0).difference(&square(5.0)))
+        };
+        assert_eq!(expanded(0.0, 0.0), square(10.0).difference(&square(5.0)));
+        assert_eq!(expanded(0.1, 0.0), square(10.1).difference(&square(4.9)));
+        assert_eq!(expanded(-0.1, 0.3), square(9.9).difference(&square(5.4)));
+    }
+
+    #[test]
     fn a_plate_too_thin_for_two_beads_is_thin_all_over() {
         let walls = lay_walls(&PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(20.0, 0.6)), BEAD, 3);
         assert!(walls.loops.is_empty());
@@ -111,5 +205,19 @@ mod tests {
         assert_eq!(walls.loops.len(), 1);
         let left = 1.1 - 0.45 - BEAD.spacing();
         assert!((walls.thin_inner.area() - left * (20.0 - 0.45 - BEAD.spacing())).abs() < 0.02);
+    }
+
+    #[test]
+    fn a_pair_of_loops_shares_what_is_missing_or_left_over() {
+        for thickness in [0.8, 0.9, 1.0] {
+            let walls = lay_walls(&PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(20.0, thickness)), BEAD, 3);
+            let [(0, path)] = &walls.loops[..] else { panic!("{thickness}: {:?}", walls.loops) };
+            assert!(walls.thin_outer.is_empty() && walls.thin_inner.is_empty() && walls.inner.is_empty());
+            let width = (thickness + BEAD.overlap()) / 2.0;
+            for (i, p) in path.points.iter().enumerate() {
+                assert!((path.width.at(i) - width).abs() < 0.01, "{thickness}: {:?}", path.width);
+                assert!((p.y.min(thickness - p.y) - width / 2.0).abs() < 0.01, "{thickness}: {p}");
+            }
+        }
     }
 }

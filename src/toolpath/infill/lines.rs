@@ -37,6 +37,11 @@ impl Hatch {
         [family(1.0, 0.0), family(0.5, SIN_60), family(-0.5, SIN_60)]
     }
 
+    /// Lines along this unit vector.
+    pub fn along(direction: DVec2, distance: f64) -> Hatch {
+        Hatch { direction, distance, phase: 0.5 }
+    }
+
     fn to_frame(self, p: DVec2) -> DVec2 {
         dvec2(p.dot(self.direction), self.direction.perp_dot(p))
     }
@@ -170,6 +175,7 @@ pub fn hatch_linked(area: &PolygonSet, role: Role, bead: Bead, hatch: Hatch) -> 
     let core = area.offset(-half, Join::WALL);
     let narrow = narrow_places(area, &core.offset(half, Join::WALL), bead);
     let weave = Weave::new(&core, hatch);
+    let narrow = narrow.union(&caps(area, &core, &weave, half));
     let mut laid = vec![false; weave.crossings.len()];
     let mut paths = Vec::new();
     for start in weave.in_line_order() {
@@ -189,6 +195,7 @@ pub fn hatch_monotonic(area: &PolygonSet, role: Role, bead: Bead, hatch: Hatch) 
     let core = area.offset(-half, Join::WALL);
     let narrow = narrow_places(area, &core.offset(half, Join::WALL), bead);
     let weave = Weave::new(&core, hatch);
+    let narrow = narrow.union(&caps(area, &core, &weave, half));
     let lines = Stack::of(&weave);
     let mut waiting: Vec<usize> = lines.below.clone();
     let mut free: Vec<usize> = (0..waiting.len()).filter(|&i| waiting[i] == 0).collect();
@@ -292,6 +299,31 @@ fn narrow_places(area: &PolygonSet, reached: &PolygonSet, bead: Bead) -> Polygon
         return PolygonSet::EMPTY;
     }
     area.difference(reached).opened(bead.width / 8.0, Join::WALL)
+}
+
+/// A cap is worth a bead of its own if it is at least this high and this wide, in line distances.
+const LOWEST_CAP: f64 = 0.3;
+const NARROWEST_CAP: f64 = 4.0;
+
+/// What of `area` lies beyond lines that have no neighbour on one side: up to a line's distance from
+/// the border that runs along them.
+fn caps(area: &PolygonSet, core: &PolygonSet, weave: &Weave, half: f64) -> PolygonSet {
+    let hatch = weave.hatch;
+    let cap = |here: usize| {
+        let there = weave.partner[here];
+        let points = (weave.next[here] == there).then(|| border_between(weave, core, here, there, true))?;
+        let (a, b) = (&weave.crossings[here], &weave.crossings[there]);
+        let level = hatch.offset_of(a.line);
+        let heights = points.iter().map(|&p| hatch.to_frame(p).y - level);
+        let top = heights.max_by(|p, q| p.abs().total_cmp(&q.abs()))?;
+        let (low, high) = (level + half * top.signum(), level + (top.abs() + 2.0 * half) * top.signum());
+        let corners =
+            [(a.u, low), (b.u, low), (b.u, high), (a.u, high)].map(|(u, v)| hatch.to_plane(dvec2(u, v)));
+        let large = top.abs() >= LOWEST_CAP * 2.0 * half && (b.u - a.u).abs() >= NARROWEST_CAP * 2.0 * half;
+        large.then(|| Contour::new(corners.to_vec()))
+    };
+    let boxes: Vec<Contour> = (0..weave.crossings.len()).filter_map(cap).collect();
+    if boxes.is_empty() { PolygonSet::EMPTY } else { PolygonSet::from_contours(boxes).intersection(area) }
 }
 
 /// One bead: line, link, line, ... until no unlaid line is within reach of the end.

@@ -38,6 +38,8 @@ crate::options! {
         /// Share of the inside that is filled with material; 0 leaves it hollow, 1 makes it solid. What
         /// joins the lines counts, so that lines lie a little farther apart in small parts.
         density: f64 = 0.15, "Infill density", "", 0.0..=1.0;
+        /// Sparse areas smaller than this are filled solidly.
+        solid_below_area: f64 = 15.0, "Solid infill below", "mm2", 0.0..=10000.0;
         /// How the lines run.
         pattern: InfillPattern = InfillPattern::Grid, "Infill pattern";
         /// How far sparse infill reaches into the innermost wall, as a share of its line width; 0 lets

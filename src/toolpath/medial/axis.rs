@@ -13,9 +13,9 @@ const SAME_SIDE: f64 = 0.3;
 
 /// A point of the medial axis and its distance to the outline, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Sample {
-    pub(super) at: DVec2,
-    pub(super) radius: f64,
+pub(in crate::toolpath) struct Sample {
+    pub(in crate::toolpath) at: DVec2,
+    pub(in crate::toolpath) radius: f64,
 }
 
 /// Where branches end or meet.

@@ -5,7 +5,7 @@ use super::border::Triangles;
 use super::chains::{Chain, End, SPUR_REACH, direction, length};
 use super::{ThinBeads, ThinFill};
 use crate::polygon::{DVec2, by_x_then_y, simplify::closest_on_segment, snap};
-use crate::region::{Path, Width};
+use crate::region::{Path, Role, Width};
 
 /// Points within this of the simplified line are dropped, mm.
 const POSITION_TOLERANCE_MM: f64 = 0.01;
@@ -201,7 +201,23 @@ fn bead(line: &[Sample], closed: bool, min_length: f64, options: &ThinFill) -> O
     }
     let line = canonical(line, closed);
     let width = width(&line, closed);
-    Some(Path { role: options.role, points: line.into_iter().map(|s| s.at).collect(), closed, width })
+    Some(Path {
+        role: options.role,
+        points: line.into_iter().map(|s| s.at).collect(),
+        closed,
+        width,
+        hang: 0.0,
+    })
+}
+
+/// A closed bead through these points, walked as given; `None` without an area.
+pub(crate) fn ring(role: Role, line: Vec<Sample>) -> Option<Path> {
+    let rounded = |s: Sample| Sample { at: snap(s.at), radius: round_width(2.0 * s.radius) / 2.0 };
+    let mut line: Vec<Sample> = line.into_iter().map(rounded).collect();
+    line.dedup_by(|a, b| a.at == b.at);
+    let line = simplified_ring(line);
+    let width = (line.len() >= 3).then(|| width(&line, true))?;
+    Some(Path { role, points: line.into_iter().map(|s| s.at).collect(), closed: true, width, hang: 0.0 })
 }
 
 fn round_width(width: f64) -> f64 {
