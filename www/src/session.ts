@@ -25,9 +25,6 @@ import {
 import type { Lesson, LessonStep, Question } from './studies.ts';
 import { canDrawSpace } from './view/webgl.ts';
 
-/** The model that lies beside the page, for visitors who bring none. */
-export const SAMPLE = 'sample.stl';
-
 export class Session {
   readonly #store: Store;
   readonly #pool: Pool;
