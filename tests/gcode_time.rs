@@ -3,7 +3,9 @@
 //! from the limits by one pass back and one forth.
 
 use foothold::gcode::read::{ReadMove, Reader};
-use foothold::gcode::{FileNotes, GcodeOptions, LayerInput, PrinterOptions, assemble, join, layer_gcode};
+use foothold::gcode::{
+    FileNotes, Flavor, GcodeOptions, LayerInput, PrinterOptions, assemble, join, layer_gcode,
+};
 use foothold::polygon::{DVec2, dvec2};
 use foothold::region::{Path, Role};
 use proptest::prelude::*;
@@ -129,12 +131,14 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
     #[test]
-    fn the_estimate_agrees_with_the_simulation(paths in loops(), acceleration in 300.0..6000.0, travel in 300.0..6000.0, walls in 300.0..6000.0, wipe in any::<bool>(), min_layer_time in 0.0..60.0) {
+    fn the_estimate_agrees_with_the_simulation(paths in loops(), acceleration in 300.0..6000.0, travel in 300.0..6000.0, walls in 300.0..6000.0, wipe in any::<bool>(), arcs in any::<bool>(), min_layer_time in 0.0..60.0) {
         let mut options = GcodeOptions::default();
         options.printer.acceleration = acceleration;
         options.printer.travel_acceleration = travel;
         options.acceleration.outer_wall = walls;
         options.retraction.wipe = wipe;
+        options.printer.flavor = Flavor::Prusa;
+        options.output.arc_fitting = arcs;
         options.cooling.min_layer_time = min_layer_time;
         // Fast enough that small circles have to be slowed down.
         options.filament.max_volumetric_speed = 100.0;
@@ -145,7 +149,9 @@ proptest! {
         let start = made.summary.stops.expect("text").start;
         let slow = simulated(&moves_of(&made.text, [start.x, start.y, 0.4]), &options.printer);
         let found = made.summary.time_s;
-        prop_assert!((found - slow).abs() < 0.005 * slow, "estimate {} s, simulation {} s", found, slow);
+        // The reader draws arcs with chords, whose corners are no arcs to the simulation where they are long.
+        let tolerance = if arcs { 0.02 } else { 0.005 };
+        prop_assert!((found - slow).abs() < tolerance * slow, "estimate {} s, simulation {} s", found, slow);
     }
 }
 
