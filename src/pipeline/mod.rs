@@ -299,7 +299,8 @@ impl Job {
         let mut heights: Vec<f64> = every_few.chain(self.specs.last()).map(|s| s.slice_z).collect();
         heights.dedup();
         let sections = slice_mesh(&self.mesh, Axis::Z, &heights, PRINT_RESOLUTION).into_iter();
-        let sections: Vec<(f64, PolygonSet)> = heights.into_iter().zip(sections.map(|s| s.area)).collect();
+        let sections: Vec<(f64, PolygonSet)> =
+            heights.into_iter().zip(sections.map(|s| self.settings.walls.expanded(s.area))).collect();
         chain_seams(&sections)
     }
 
