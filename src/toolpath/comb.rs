@@ -92,12 +92,14 @@ impl<'a> Comb<'a> {
     }
 
     /// Where the straight way crosses rails, each an even number of times. An end that lies on a rail,
-    /// where walls begin, counts as crossing if that makes the number even. `None` if an end lies
-    /// outside.
+    /// where walls begin, is taken a hair before or behind it if that makes the number even. `None` if an
+    /// end lies outside.
     fn paired_crossings(&self, a: DVec2, b: DVec2) -> Option<Vec<Crossing>> {
-        let beyond = (b - a).normalize_or_zero() * ON_RAIL;
-        let ways = [(a, b), (a - beyond, b), (a, b + beyond), (a - beyond, b + beyond)];
-        ways.into_iter().map(|(a, b)| self.crossings(a, b)).find(|found| {
+        let hair = (b - a).normalize_or_zero() * ON_RAIL;
+        let shifts = [0.0, -1.0, 1.0];
+        let ways =
+            shifts.iter().flat_map(|from| shifts.iter().map(move |to| (a + hair * *from, b + hair * *to)));
+        ways.map(|(a, b)| self.crossings(a, b)).find(|found| {
             let times = |rail: usize| found.iter().filter(|c| c.rail == rail).count();
             found.iter().all(|c| times(c.rail).is_multiple_of(2))
         })
