@@ -90,8 +90,8 @@ test('the whole way by keyboard', async ({ page }) => {
   await page.keyboard.press('ArrowLeft');
   expect((await settled(page)).equals(before)).toBe(false);
   const layer = Number(await layerSlider(page).inputValue());
-  await page.keyboard.press('PageUp');
-  await expect(layerSlider(page)).toHaveValue(String(layer + 1));
+  await page.keyboard.press('PageDown');
+  await expect(layerSlider(page)).toHaveValue(String(layer - 1));
   await expect(picture(page)).toBeFocused();
   await reach(/^Layer$/);
   await page.keyboard.press('Home');

@@ -86,7 +86,9 @@ test('a part outside the printer is marked, and slicing says where it stands', a
   await type(page, 'Middle along X, mm', '5');
   await expect(part(page, 'cube.stl')).toContainText('Stands outside the printer');
   await sliceButton(page).click();
-  await expect(page.getByRole('alert')).toContainText('part 1 reaches from (-5.0, 105.0, 0.0)');
+  await expect(page.getByRole('region', { name: 'Job' }).getByRole('alert')).toContainText(
+    'part 1 reaches from (-5.0, 105.0, 0.0)',
+  );
   await type(page, 'Middle along X, mm', '50');
   await sliceButton(page).click();
   await expect(downloadButton(page)).toBeEnabled();

@@ -158,7 +158,7 @@ test('errors stand in words, and the next model opens', async ({ page }, { outpu
   await openFile(page, inFolder(outputDir, 'tower.stl', binaryStl(box(10, 10, 900))));
   await expect(page.getByText('10 × 10 × 900 mm')).toBeVisible();
   await sliceButton(page).click();
-  await expect(page.getByRole('alert')).toContainText('does not fit the printer');
+  await expect(page.getByRole('region', { name: 'Job' }).getByRole('alert')).toContainText('does not fit the printer');
 
   await openFile(page, inFolder(outputDir, 'cube.stl', binaryStl(box(20, 20, 20))));
   await sliceButton(page).click();
