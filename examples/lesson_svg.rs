@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     fs::create_dir_all(folder)?;
     let mut reader = StlReader::new();
     reader.push(&fs::read(model)?)?;
-    let named = NamedModel { name: "part".to_owned(), model: LoadedModel::new(reader.finish()?)? };
+    let named = NamedModel::new("part", LoadedModel::new(reader.finish()?)?);
     let settings = Settings::resolve([], sets.iter().map(String::as_str))?;
     let report = orient(&named.model.mesh, &settings.orientation, &mut |_, _| true)?;
     let job = Job::new(&[named], settings, &|| 0.0)?;

@@ -284,6 +284,7 @@ mod tests {
             max_speed_z: 10.0,
             max_speed_e: 50.0,
             junction_deviation: 0.02,
+            tool_change_time: 0.0,
         }
     }
 
