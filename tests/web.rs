@@ -102,7 +102,7 @@ fn directions_evaluated_elsewhere_are_the_same_and_turn_the_job() {
     let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
     assert_eq!(report["chosen"], 5);
     let layers = |part: Model| {
-        let mut job = Job::new(vec![part], vec!["part".to_owned()], &settings).expect("it fits");
+        let mut job = Job::new(vec![part], vec!["part".to_owned()], &settings, &[]).expect("it fits");
         job.prepare().expect("good settings");
         job.layer_count().expect("a running job")
     };
