@@ -86,8 +86,8 @@ fn the_report_is_json_and_the_job_is_over_after_it() {
 #[wasm_bindgen_test]
 fn directions_evaluated_elsewhere_are_the_same_and_turn_the_job() {
     let settings = resolve_settings(vec![], vec!["orientation.mode=auto".to_owned()]).expect("good settings");
-    // On its side it stands as it is needed: the column of a T.
-    let stl = write_binary(&common::cuboid(glam::Vec3::ZERO, glam::Vec3::new(4.0, 30.0, 30.0)));
+    // Upright it covers least of the bed: y becomes up.
+    let stl = write_binary(&common::cuboid(glam::Vec3::ZERO, glam::Vec3::new(4.0, 30.0, 10.0)));
     let mut part = model(&stl, 4096);
     let ups = part.directions(&settings, false).expect("a sound part");
     assert_eq!(ups.len(), 18);
