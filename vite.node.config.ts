@@ -14,7 +14,11 @@ export default defineConfig({
       output: { format: 'es', entryFileNames: '[name].mjs', chunkFileNames: '[name].mjs' },
     },
   },
-  plugins: [besideBundle('www/src/generated/engine/foothold_bg.wasm'), besideBundle('schema/settings.schema.json')],
+  plugins: [
+    besideBundle('www/src/generated/engine/foothold_bg.wasm'),
+    besideBundle('www/src/generated/files/foothold_files_bg.wasm'),
+    besideBundle('schema/settings.schema.json'),
+  ],
 });
 
 /** Copies a file next to the bundle, which reads it at run time. */

@@ -1,7 +1,7 @@
 // Builds everything that can be served or run: `npm run build`. Installs what is missing first.
 //
 //   Rust -> schema/*.json -> TypeScript types
-//   Rust -> wasm -> wasm-bindgen -> wasm-opt -> www/src/generated/engine
+//   Rust -> wasm -> wasm-bindgen -> wasm-opt -> www/src/generated/engine and files
 //   www, bin/cli -> dist/page (static files, any sub-path) and dist/node (what bin/foothold.mjs runs)
 //
 // FOOTHOLD_QUICK=1 builds the engine in a third of the time, larger and a little slower, for trying things out.
@@ -17,8 +17,8 @@ import { step } from './step.mjs';
 /** The engine's cargo profile; the quick one is not run through wasm-opt either. */
 const quick = process.env.FOOTHOLD_QUICK === '1';
 const profile = quick ? 'quick' : 'release';
-const rust = ['src', 'Cargo.toml', 'Cargo.lock', 'rust-toolchain.toml', '.cargo'];
-const web = ['www', 'package-lock.json', 'vite.config.ts', 'vite.node.config.ts'];
+const rust = ['src', 'crates', 'Cargo.toml', 'Cargo.lock', 'rust-toolchain.toml', '.cargo'];
+const web = ['www', 'profiles', 'package-lock.json', 'vite.config.ts', 'vite.node.config.ts'];
 
 export async function build() {
   await npmPackages();
@@ -27,6 +27,7 @@ export async function build() {
   await schemas();
   await types();
   await wasm(bindgen);
+  await files(bindgen);
   await sample();
   await page();
   await node();
@@ -62,20 +63,27 @@ function types() {
 function wasm(bindgen) {
   const outputs = ['foothold.js', 'foothold.d.ts', 'foothold_bg.wasm'].map((it) => `www/src/generated/engine/${it}`);
   return step('engine', { inputs: [...rust, 'scripts/build.mjs'], outputs, variant: profile }, async () => {
-    await run('cargo', ['build', '--locked', '--profile', profile, '--target', wasmTarget, '--lib']);
-    const raw = path.join(targetFolder(), wasmTarget, profile, 'foothold.wasm');
-    rmSync(engine, { recursive: true, force: true });
-    await run(path.join(bindgen, 'wasm-bindgen'), [
-      raw,
-      '--target',
-      'web',
-      '--out-dir',
-      engine,
-      '--out-name',
-      'foothold',
-    ]);
-    if (profile === 'release') await optimise(path.join(engine, 'foothold_bg.wasm'));
+    await bound(bindgen, 'foothold', engine);
   });
+}
+
+/** The module for files of other programs. */
+function files(bindgen) {
+  const folder = path.join(generated, 'files');
+  const outputs = ['foothold_files.js', 'foothold_files.d.ts', 'foothold_files_bg.wasm'];
+  const inputs = ['crates', 'schema', 'Cargo.toml', 'Cargo.lock', 'rust-toolchain.toml', '.cargo', 'scripts/build.mjs'];
+  const named = outputs.map((it) => `www/src/generated/files/${it}`);
+  return step('files', { inputs, outputs: named, variant: profile }, () => bound(bindgen, 'foothold-files', folder));
+}
+
+/** Builds a package as wasm, with JavaScript around it, into an empty folder. */
+async function bound(bindgen, name, folder) {
+  await run('cargo', ['build', '--locked', '--profile', profile, '--target', wasmTarget, '--lib', '-p', name]);
+  const file = name.replace('-', '_');
+  const raw = path.join(targetFolder(), wasmTarget, profile, `${file}.wasm`);
+  rmSync(folder, { recursive: true, force: true });
+  await run(path.join(bindgen, 'wasm-bindgen'), [raw, '--target', 'web', '--out-dir', folder, '--out-name', file]);
+  if (profile === 'release') await optimise(path.join(folder, `${file}_bg.wasm`));
 }
 
 function targetFolder() {

@@ -29,7 +29,10 @@ const groups = {
     ['biome', () => runPackage('@biomejs/biome/bin/biome', ['check', '--error-on-warnings'])],
     ['schemas committed', () => run('git', ['diff', '--exit-code', '--stat', '--', 'schema'])],
   ],
-  rust: [['cargo test', () => run('cargo', ['test', '--locked', '--features', 'schema'], { env })]],
+  rust: [
+    ['cargo test', () => run('cargo', ['test', '--locked', '--features', 'schema'], { env })],
+    ['cargo test files', () => run('cargo', ['test', '--locked', '--package', 'foothold-files'], { env })],
+  ],
   web: [['wasm in Node', () => wasmTests()]],
   node: [
     ['build', build],

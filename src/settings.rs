@@ -156,6 +156,7 @@ impl Settings {
             cooling: self.cooling.clone(),
             output: self.gcode.clone(),
             ironing_flow: self.ironing.flow,
+            objects: Vec::new(),
             first_layer_speed: self.first_layer.speed,
             seam_gap: self.seam.gap,
         }

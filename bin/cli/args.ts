@@ -1,13 +1,16 @@
 // Words of the command line -> a command. Wrong use is a UsageError.
 import { availableParallelism } from 'node:os';
 import { type ParseArgsConfig, parseArgs } from 'node:util';
+import { ids, type Kind } from '../../www/src/profiles/catalog.ts';
+import type { Layers } from '../../www/src/profiles/layers.ts';
 
 export class UsageError extends Error {
   override name = 'UsageError';
 }
 
-/** Settings as the user gave them: files first, then single values. */
+/** Settings as the user gave them: profiles first, then files, then single values. */
 export interface SettingWords {
+  readonly profiles: Layers;
   readonly files: readonly string[];
   readonly sets: readonly string[];
 }
@@ -40,18 +43,22 @@ export type Command =
   | ({ readonly kind: 'orient' } & Weighing)
   | ({ readonly kind: 'compare' } & Weighing)
   | { readonly kind: 'settings'; readonly settings: SettingWords; readonly schema: boolean }
+  | { readonly kind: 'profiles' }
+  | { readonly kind: 'import'; readonly file: string; readonly out: string | undefined }
   | { readonly kind: 'help' }
   | { readonly kind: 'version' };
 
-export const help = `Foothold: STL in, printable G-code out.
+export const help = `Foothold: STL, 3MF or OBJ in, printable G-code out.
 
-usage: foothold slice MODEL... [-o OUT.gcode] [--settings F.json] [--set path=value]...
-                [--report R.json] [--workers N]
+usage: foothold slice MODEL... [-o OUT.gcode] [--printer ID] [--material ID] [--quality ID]
+                [--settings F.json] [--set path=value]... [--report R.json] [--workers N]
        foothold inspect MODEL [--report R.json]
        foothold draw MODEL (--layer K | --plane y=12.5) -o OUT.svg [--settings F.json] [--set path=value]...
        foothold orient MODEL [--report R.json] [--layer-height T] [--workers N]
        foothold compare MODEL [--report R.json]
-       foothold settings [--schema] [--settings F.json] [--set path=value]...
+       foothold settings [--schema] [--printer ID] ... [--settings F.json] [--set path=value]...
+       foothold profiles
+       foothold import PROFILE [-o SETTINGS.json]
 
   slice      writes G-code; several models are arranged on the bed
   inspect    counts triangles, shells and faults, and measures the model
@@ -59,8 +66,13 @@ usage: foothold slice MODEL... [-o OUT.gcode] [--settings F.json] [--set path=va
   orient     which way up needs the least support, with the figures of each direction
   compare    skirt, brim, raft and teeth side by side
   settings   all settings, or their JSON Schema
+  profiles   the printers, materials and qualities that --printer, --material and --quality name
+  import     a profile of PrusaSlicer (.ini, .gcode), OrcaSlicer (.json) or Cura (.curaprofile) as settings,
+             and what became of each of its values
 
   -o, --output     file to write, whole or not at all; - is standard output
+  --printer, --material, --quality
+                   profiles, each over the one before; settings and single values lie over them
   --settings       settings as JSON; may be given again, the later one wins
   --set            one setting: JSON, else a plain word (--set adhesion.kind=skirt)
   --report         what was made, as JSON
@@ -72,6 +84,9 @@ exit: 0 done; 1 a bug of ours; 2 wrong use or settings; 3 a model that can't be 
 `;
 
 const settingOptions = {
+  printer: { type: 'string' },
+  material: { type: 'string' },
+  quality: { type: 'string' },
   settings: { type: 'string', multiple: true },
   set: { type: 'string', multiple: true },
 } as const;
@@ -98,8 +113,15 @@ export function parseCommand(words: readonly string[]): Command {
       return compare(rest);
     case 'settings':
       return settings(rest);
+    case 'import':
+      return importOf(rest);
+    case 'profiles':
+      parsed({ args: rest, options: {}, allowPositionals: false });
+      return { kind: 'profiles' };
     default:
-      throw new UsageError(`no command "${name}": slice, inspect, draw, orient, compare and settings are there`);
+      throw new UsageError(
+        `no command "${name}": slice, inspect, draw, orient, compare, settings, profiles and import are there`,
+      );
   }
 }
 
@@ -120,6 +142,13 @@ function slice(words: readonly string[]): Command {
 function inspect(words: readonly string[]): Command {
   const { values, positionals } = parsed({ args: [...words], options: report, allowPositionals: true });
   return { kind: 'inspect', model: oneModel('inspect', positionals), report: values.report };
+}
+
+function importOf(words: readonly string[]): Command {
+  const { values, positionals } = parsed({ args: [...words], options: output, allowPositionals: true });
+  const [file, ...more] = positionals;
+  if (file === undefined || more.length > 0) throw new UsageError('import takes one profile');
+  return { kind: 'import', file, out: values.output };
 }
 
 function draw(words: readonly string[]): Command {
@@ -150,11 +179,11 @@ function orient(words: readonly string[]): Command {
   const options = { ...settingOptions, ...report, ...workers, 'layer-height': { type: 'string' } } as const;
   const { values, positionals } = parsed({ args: [...words], options, allowPositionals: true });
   const height = values['layer-height'];
-  const { files, sets } = settingWords(values);
+  const { profiles, files, sets } = settingWords(values);
   return {
     kind: 'orient',
     model: oneModel('orient', positionals),
-    settings: { files, sets: height === undefined ? sets : [...sets, `orientation.layer_height=${height}`] },
+    settings: { profiles, files, sets: height === undefined ? sets : [...sets, `orientation.layer_height=${height}`] },
     report: values.report,
     workers: workerCount(values.workers),
   };
@@ -188,11 +217,31 @@ function parsed<T extends ParseArgsConfig>(config: T): ReturnType<typeof parseAr
   }
 }
 
-function settingWords(values: { settings?: string[]; set?: string[] }): SettingWords {
+interface SettingValues {
+  readonly settings?: string[];
+  readonly set?: string[];
+  readonly printer?: string;
+  readonly material?: string;
+  readonly quality?: string;
+}
+
+function settingWords(values: SettingValues): SettingWords {
   for (const word of values.set ?? []) {
     if (!/^[^=]+=/.test(word)) throw new UsageError(`--set ${word}: expected path=value`);
   }
-  return { files: values.settings ?? [], sets: values.set ?? [] };
+  return { profiles: layers(values), files: values.settings ?? [], sets: values.set ?? [] };
+}
+
+/** The profiles named, each of which must be there. */
+function layers(values: SettingValues): Layers {
+  const named: { [K in Kind]?: string } = {};
+  for (const kind of ['printer', 'material', 'quality'] as const) {
+    const id = values[kind];
+    if (id === undefined) continue;
+    if (!ids(kind).includes(id)) throw new UsageError(`--${kind} ${id}: there are ${ids(kind).join(', ')}`);
+    named[kind] = id;
+  }
+  return named;
 }
 
 function oneModel(command: string, positionals: readonly string[]): string {

@@ -1,15 +1,19 @@
 // What each command does.
 import { readFileSync, realpathSync } from 'node:fs';
+import { type Imported, importProfile as importedFrom } from '../../www/src/files/files.ts';
+import { ids, type Kind, settingsFiles } from '../../www/src/profiles/catalog.ts';
+import { type Layers, parseSaved, type SavedSettings } from '../../www/src/profiles/layers.ts';
 import { partsOf } from '../../www/src/slicer/gcode.ts';
 import { Pool, type Progress } from '../../www/src/slicer/pool.ts';
 import { type Command, type SettingWords, UsageError, type Weighing } from './args.ts';
 import { openModel } from './disk-file.ts';
 import { FileError, reasonOf } from './errors.ts';
+import { loadFiles } from './files.ts';
 import { inWords } from './inspection.ts';
 import { nodeLanes } from './lanes.ts';
 import { Output } from './output.ts';
 import { progressBar } from './progress.ts';
-import { adhesionTable, directionTable } from './tables.ts';
+import { adhesionTable, directionTable, importTable, profileTable } from './tables.ts';
 
 type Of<K extends Command['kind']> = Extract<Command, { kind: K }>;
 
@@ -22,7 +26,7 @@ export async function slice({ models, out, settings, report, workers }: Of<'slic
     const [gcodeOut, reportOut] = [maybe(out), maybe(report)];
     const progress = progressBar(process.stderr);
     try {
-      await pool.open(sources);
+      await pool.open(await pool.unpack(sources));
       const gcode = await pool.slice({ settings: all, progress: progress.show });
       const target = gcodeOut ?? new Output(gcode.joined.fileName);
       target.write(partsOf(gcode));
@@ -40,11 +44,11 @@ export async function inspect({ model, report }: Of<'inspect'>): Promise<void> {
   refuseClash(report === undefined ? [] : [report], [model]);
   await withPool(1, async (pool) => {
     const reportOut = maybe(report);
-    const { inspections } = await pool.open([source]);
-    const inspection = inspections[0] ?? '{}';
-    reportOut?.write([inspection, '\n']);
+    const { inspections } = await pool.open(await pool.unpack([source]));
+    // A file of several parts has as many inspections.
+    reportOut?.write([inspections.length === 1 ? (inspections[0] ?? '{}') : `[${inspections.join(',')}]`, '\n']);
     reportOut?.finish();
-    if (report !== '-') new Output('-').write([inWords(inspection)]);
+    if (report !== '-') new Output('-').write([inspections.map(inWords).join('\n')]);
   });
 }
 
@@ -54,7 +58,7 @@ export async function draw({ model, what, out, settings }: Of<'draw'>): Promise<
   await withPool(1, async (pool) => {
     const all = await resolve(pool, settings);
     const target = new Output(out);
-    await pool.open([source]);
+    await pool.open(await pool.unpack([source]));
     target.write([await pool.draw(all, what)]);
     target.finish();
   });
@@ -79,7 +83,7 @@ async function weigh(
   await withPool(workers, async (pool) => {
     const all = await resolve(pool, words);
     const reportOut = maybe(report);
-    await pool.open([source]);
+    await pool.open(await pool.unpack([source]));
     const progress = progressBar(process.stderr);
     const figures = await ask(pool, all, progress.show).finally(progress.clear);
     reportOut?.write([figures, '\n']);
@@ -93,6 +97,34 @@ export async function settings({ settings: words, schema }: Of<'settings'>): Pro
     ? readFileSync(new URL('./settings.schema.json', import.meta.url), 'utf8')
     : await withPool(1, async (pool) => JSON.stringify(JSON.parse(await resolve(pool, words)), undefined, 2));
   new Output('-').write([`${text.trimEnd()}\n`]);
+}
+
+export function profiles(): void {
+  new Output('-').write([profileTable()]);
+}
+
+/** Writes what was taken over as a settings file, and says what became of each value. */
+export async function importProfile({ file, out }: Of<'import'>): Promise<void> {
+  const profile = readProfile(file);
+  refuseClash(out === undefined ? [] : [out], [file]);
+  let found: Imported;
+  try {
+    found = await importedFrom(profile, loadFiles);
+  } catch (error) {
+    throw new FileError(file, error instanceof Error ? error.message : String(error), 2);
+  }
+  const target = maybe(out);
+  target?.write([`${JSON.stringify(found.settings, undefined, 2)}\n`]);
+  target?.finish();
+  if (out !== '-') new Output('-').write([importTable(found)]);
+}
+
+function readProfile(file: string): Uint8Array {
+  try {
+    return readFileSync(file);
+  } catch (error) {
+    throw new FileError(file, `can't be read: ${reasonOf(error)}`, 2);
+  }
 }
 
 /** Standard output for one thing only, and never a model's own file. */
@@ -122,21 +154,31 @@ async function withPool<T>(workers: number, work: (pool: Pool) => Promise<T>): P
   }
 }
 
+/** Profiles, then files, then single values. A file may choose profiles itself; those named here win. */
 function resolve(pool: Pool, words: SettingWords): Promise<string> {
-  return pool.settings(words.files.map(readSettings), words.sets);
+  const files = words.files.map(readSettings);
+  const layers = Object.assign({}, ...files.map((it) => it.profiles), words.profiles) as Layers;
+  const changes = files.map((it) => JSON.stringify(it.settings));
+  return pool.settings([...settingsFiles(layers), ...changes], words.sets);
 }
 
-function readSettings(file: string): string {
+function readSettings(file: string): SavedSettings {
   let text: string;
   try {
     text = readFileSync(file, 'utf8');
   } catch (error) {
     throw new FileError(file, `can't be read: ${reasonOf(error)}`, 2);
   }
+  const said = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+  let found: SavedSettings;
   try {
-    JSON.parse(text);
+    found = parseSaved(text);
   } catch (error) {
-    throw new FileError(file, `not JSON: ${error instanceof Error ? error.message : error}`, 2);
+    const what = error instanceof SyntaxError ? 'not JSON: ' : '';
+    throw new FileError(file, `${what}${said(error)}`, 2);
   }
-  return text;
+  for (const [kind, id] of Object.entries(found.profiles)) {
+    if (!ids(kind as Kind).includes(id)) throw new FileError(file, `there is no ${kind} profile "${id}"`, 2);
+  }
+  return found;
 }

@@ -8,6 +8,7 @@ import { watchPanics } from '../../www/src/slicer/errors.ts';
 import { LocalLane, type Port, ThreadLane } from '../../www/src/slicer/lane.ts';
 import { Lead } from '../../www/src/slicer/lead.ts';
 import type { LaneMaker } from '../../www/src/slicer/pool.ts';
+import { loadFiles } from './files.ts';
 
 /** Lanes of one run of the command line. */
 export function nodeLanes(): LaneMaker {
@@ -16,7 +17,7 @@ export function nodeLanes(): LaneMaker {
     lead: () => {
       watchPanics(() => undefined);
       engine.initSync({ module });
-      const lead = new Lead(engine);
+      const lead = new Lead(engine, loadFiles);
       return new LocalLane<LeadRequest, LeadReply>((request) => lead.handle(request), pause);
     },
     helper: () =>

@@ -36,6 +36,10 @@ async function perform(command: Command): Promise<void> {
       return commands.compare(command);
     case 'settings':
       return commands.settings(command);
+    case 'import':
+      return commands.importProfile(command);
+    case 'profiles':
+      return commands.profiles();
     case 'help':
       return new Output('-').write([help]);
     case 'version':

@@ -78,7 +78,7 @@ pub fn move_times(start: Place, z: i32, moves: &[Move], limits: &Limits) -> Vec<
     let (mut at, mut z) = (start, z);
     for (i, &step) in moves.iter().enumerate() {
         match step {
-            Move::Role(_) | Move::Width(_) | Move::Height(_) | Move::Fan(_) => {}
+            Move::Role(_) | Move::Width(_) | Move::Height(_) | Move::Fan(_) | Move::Object { .. } => {}
             Move::Acceleration(acceleration) => run.accelerate(f64::from(acceleration)),
             Move::Extrude { to, filament, feed } | Move::Wipe { to, filament, feed } => {
                 run.push(i, Leg::straight(at.way(to)), feed, Some(f64::from(filament) / FILAMENT_STEPS));

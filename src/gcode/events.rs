@@ -57,8 +57,8 @@ impl LayerEvent {
 pub fn check_output(options: &GcodeOptions) -> Result<(), GcodeError> {
     let OutputOptions { arc_fitting, ref events, .. } = options.output;
     let flavor = options.printer.flavor;
+    let firmware = format!("{flavor:?}").to_lowercase();
     if arc_fitting && !flavor.has_arcs() {
-        let firmware = format!("{flavor:?}").to_lowercase();
         let cause = format!("the firmware {firmware} is not known to take arcs");
         return Err(GcodeError::Contradiction { setting: "gcode.arc_fitting".to_owned(), cause });
     }
@@ -68,6 +68,9 @@ pub fn check_output(options: &GcodeOptions) -> Result<(), GcodeError> {
             cause: cause.to_owned(),
         };
         event.check().map_err(wrong)?;
+        if event.kind == EventKind::Pause && !flavor.has_pause() {
+            return Err(wrong(&format!("the firmware {firmware} is not known to wait for the user")));
+        }
         expand(&event.gcode, "gcode.events", |name| PLACEHOLDERS.contains(&name).then(String::new))?;
     }
     Ok(())

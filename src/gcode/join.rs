@@ -7,9 +7,8 @@ use super::tool::Change;
 use super::writer::Writer;
 use super::{
     FILAMENT_STEPS, GcodeError, GcodeOptions, LayerSummary, Limits, Move, Place, RoleUse, filament_area,
-    move_times,
+    label, move_times,
 };
-use crate::polygon::dvec2;
 use crate::region::{Bead, Role};
 use std::collections::BTreeMap;
 
@@ -109,6 +108,7 @@ pub fn join(
     if has_two_tools {
         file.preheat_second();
     }
+    file.text(&label::definitions(options));
     file.progress(0.0);
     file.way(&start);
     for (k, (layer, way)) in layers.iter().zip(&ways).enumerate() {
@@ -226,16 +226,15 @@ impl<'a> Route<'a> {
     /// The line along the front edge that fills the nozzle.
     fn prime_line(&mut self, facts: PrintFacts) -> Vec<Move> {
         let GcodeOptions { printer, filament, speed, .. } = self.options;
-        let [x, y] = PRIME_MARGIN;
-        let length = printer.prime_length.min(printer.bed_size[0] - 2.0 * x);
-        if length <= 0.0 || facts.layer_count == 0 {
+        let [from, to] = printer.prime_line(PRIME_MARGIN);
+        if to.x <= from.x || facts.layer_count == 0 {
             return Vec::new();
         }
         let height = self.prime_height(facts);
         let width = printer.nozzle_diameter * PRIME_WIDTH;
         let area = Bead { width, height }.area();
         let feed = feed_rate(speed.prime.min(filament.max_volumetric_speed / area));
-        let [from, to] = [dvec2(x, y), dvec2(x + length, y)].map(Place::of);
+        let [from, to] = [from, to].map(Place::of);
         let pushed = area * from.distance(to) / filament_area(filament.diameter);
         let mut moves = vec![Move::Role(Role::Prime), Move::Width(micrometres(width) as u32)];
         let lift = Move::Lift { z: micrometres(height), feed: z_feed(self.options) };
@@ -319,7 +318,7 @@ impl<'a> Route<'a> {
             moves.push(Move::Lift { z, feed: z_feed(self.options) });
         }
         if !firmware_parks {
-            let to = Place::of(dvec2(0.0, printer.bed_size[1]));
+            let to = Place::of(printer.parking());
             moves.push(Move::Travel { to, feed: feed_rate(speed.travel) });
         }
         self.wipe.clear();
@@ -376,6 +375,7 @@ impl<'a> Route<'a> {
                 | Move::Width(_)
                 | Move::Height(_)
                 | Move::Acceleration(_)
+                | Move::Object { .. }
                 | Move::Extrude { .. }
                 | Move::Arc { .. }
                 | Move::Travel { .. } => {}
@@ -457,7 +457,7 @@ impl<'a> FileWriter<'a> {
 
     fn way(&mut self, way: &Way) {
         if let Some(height) = way.bead_height {
-            let mut writer = Writer::after(std::mem::take(&mut self.glue), self.options.printer.flavor);
+            let mut writer = Writer::after(std::mem::take(&mut self.glue), self.options);
             writer.length_comment(b";HEIGHT:", height);
             self.glue = writer.out;
         }
@@ -466,7 +466,7 @@ impl<'a> FileWriter<'a> {
     }
 
     fn moves(&mut self, moves: &[Move]) {
-        let mut writer = Writer::after(std::mem::take(&mut self.glue), self.options.printer.flavor);
+        let mut writer = Writer::after(std::mem::take(&mut self.glue), self.options);
         for &step in moves {
             writer.write(step);
         }
@@ -488,7 +488,7 @@ impl<'a> FileWriter<'a> {
 
     /// The way to a layer and the layer, cut where progress is reported.
     fn layer(&mut self, k: usize, layer: &LayerSummary, way: &Way) {
-        let mut writer = Writer::after(std::mem::take(&mut self.glue), self.options.printer.flavor);
+        let mut writer = Writer::after(std::mem::take(&mut self.glue), self.options);
         writer.comment(b";LAYER_CHANGE", b"");
         writer.length_comment(b";Z:", micrometres(layer.print_z));
         writer.length_comment(b";HEIGHT:", micrometres(layer.height));

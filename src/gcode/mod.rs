@@ -22,6 +22,7 @@ mod events;
 mod extrude;
 mod flavor;
 mod join;
+mod label;
 mod options;
 mod plan;
 pub mod read;
@@ -36,11 +37,12 @@ pub use cooling::CoolingOptions;
 pub use estimate::{Limits, move_times};
 pub use events::{EventKind, LayerEvent, check_output, event_layers};
 pub use extrude::filament_area;
-pub use flavor::Flavor;
+pub use flavor::{Flavor, ObjectLabels};
 pub use join::{FileNotes, Joined, Piece, Totals, assemble, format_duration, join};
+pub use label::{LabelledObject, labelled_objects};
 pub use options::{
-    AccelerationOptions, FilamentOptions, GcodeOptions, OutputOptions, PrinterOptions, RetractionOptions,
-    SpeedOptions,
+    AccelerationOptions, BedShape, FilamentOptions, GcodeOptions, Origin, OutputOptions, PrinterOptions,
+    RetractionOptions, SpeedOptions,
 };
 pub use plan::plan_layer;
 pub use start::{GcodeError, check_templates};
@@ -205,6 +207,13 @@ pub enum Move {
     Fan(u8),
     /// Beads from here on accelerate by so many mm/s2; takes no time.
     Acceleration(u32),
+    /// Moves of the labelled object at this place in the list begin or end; takes no time.
+    Object {
+        /// Place in [`GcodeOptions::objects`].
+        place: u32,
+        /// Whether its moves begin.
+        begins: bool,
+    },
     /// A straight bead.
     Extrude {
         /// Where it ends.
@@ -284,7 +293,7 @@ pub(crate) const FILAMENT_STEPS: f64 = 1e5;
 pub fn layer_gcode(layer: &LayerInput<'_>, options: &GcodeOptions) -> LayerGcode {
     let plan = plan_layer(layer, options);
     let mut summary = plan.summary(options);
-    let text = writer::write_layer(&plan, options.printer.flavor, &mut summary.marks);
+    let text = writer::write_layer(&plan, options, &mut summary.marks);
     summary.text_len = u32::try_from(text.len()).expect("a layer's text is far below 4 GiB");
     LayerGcode { text, summary }
 }

@@ -3,6 +3,9 @@
 use super::cooling::CoolingOptions;
 use super::events::LayerEvent;
 use super::flavor::Flavor;
+use super::label::LabelledObject;
+use crate::polygon::measure::Bounds;
+use crate::polygon::{DVec2, dvec2};
 use crate::region::Role;
 
 /// Start code of [`PrinterOptions`]: bed, home, nozzle, in this order.
@@ -20,15 +23,46 @@ M104 S0 ; nozzle off
 M140 S0 ; bed off
 M107 ; fan off
 G1 Z{park_z} F600 ; away from the part
-G1 X0 Y{bed_size_y} F6000 ; present the part
+G1 X{park_x} Y{park_y} F6000 ; present the part
 M84 ; motors off
 ";
+
+/// Outline of a bed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum BedShape {
+    /// A rectangle of `bed_size`.
+    #[default]
+    Rectangle,
+    /// An ellipse with the diameters of `bed_size`: a circle on nearly every delta.
+    Round,
+}
+
+/// Where on the bed X0 Y0 is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum Origin {
+    /// The front left corner.
+    #[default]
+    Corner,
+    /// The middle, as on a delta.
+    Center,
+}
 
 crate::options! {
     /// The machine: its size, its firmware and what it can do.
     pub struct PrinterOptions {
-        /// Size of the bed along x and y. The origin is its front left corner.
+        /// Size of the bed along x and y.
         bed_size: [f64; 2] = [220.0, 220.0], "Bed size", "mm", 10.0..=5000.0;
+        /// Outline of the bed.
+        bed_shape: BedShape = BedShape::Rectangle, "Bed shape";
+        /// Where on the bed X0 Y0 is.
+        origin: Origin = Origin::Corner, "Origin";
+        /// Rectangles of the bed where nothing may be printed, each as smallest x and y, largest x and y
+        /// in the printer's coordinates, mm.
+        forbidden: Vec<[f64; 4]> = Vec::new(), "Forbidden zones";
         /// Highest print.
         height: f64 = 250.0, "Print height", "mm", 10.0..=5000.0;
         /// Number of extruders. The second one may print supports (support.tool).
@@ -37,6 +71,10 @@ crate::options! {
         tool_change_time: f64 = 5.0, "Time of a tool change", "s", 0.0..=600.0;
         /// Diameter of the nozzle's hole.
         nozzle_diameter: f64 = 0.4, "Nozzle diameter", "mm", 0.1..=3.0;
+        /// Hottest that the nozzle may get.
+        max_nozzle_temp: f64 = 300.0, "Hottest nozzle", "degrees C", 0.0..=500.0;
+        /// Hottest that the bed gets.
+        max_bed_temp: f64 = 120.0, "Hottest bed", "degrees C", 0.0..=200.0;
         /// The firmware whose dialect is written.
         flavor: Flavor = Flavor::Marlin, "Firmware";
         /// G-code before the print. Words in braces such as {bed_temp} are replaced. Heating is added
@@ -44,6 +82,8 @@ crate::options! {
         start_gcode: String = START_GCODE.to_owned(), "Start G-code";
         /// G-code after the print, with the same {placeholders}. Switching off is added where it is missing.
         end_gcode: String = END_GCODE.to_owned(), "End G-code";
+        /// Whether each object's moves are marked, so that the printer can give up one and finish the rest.
+        label_objects: bool = false, "Label objects";
         /// Length of the line that fills the nozzle, drawn along the front edge after the start code; 0
         /// draws none. None is drawn either if the start code extrudes something itself.
         prime_length: f64 = 80.0, "Prime line", "mm", 0.0..=1000.0;
@@ -84,6 +124,10 @@ crate::options! {
         first_layer_bed_temp: f64 = 60.0, "First layer bed temperature", "degrees C", 0.0..=200.0;
         /// Nozzle temperature while another tool prints; 0 keeps it as hot as for printing.
         standby_temp: f64 = 0.0, "Standby temperature", "degrees C", 0.0..=500.0;
+        /// Nozzle temperatures that suit the material, lowest and highest.
+        nozzle_temp_range: [f64; 2] = [190.0, 230.0], "Nozzle temperatures that suit", "degrees C", 0.0..=500.0;
+        /// Bed temperatures that suit the material, lowest and highest.
+        bed_temp_range: [f64; 2] = [0.0, 70.0], "Bed temperatures that suit", "degrees C", 0.0..=200.0;
         /// Mass per volume.
         density: f64 = 1.24, "Density", "g/cm3", 0.1..=20.0;
         /// Price of a kilogram, in any currency.
@@ -97,6 +141,9 @@ crate::options! {
         max_fan_speed: f64 = 0.0, "Fan on short layers", "", 0.0..=1.0;
         /// Fan on bridges and overhanging walls, as a share of full speed.
         bridge_fan_speed: f64 = 1.0, "Fan on bridges", "", 0.0..=1.0;
+        /// Linear (pressure) advance, set at the start; 0 leaves the printer's own. The unit is the
+        /// firmware's: s nearly everywhere.
+        pressure_advance: f64 = 0.0, "Pressure advance", "s", 0.0..=5.0;
         /// Number of layers at the bottom that are printed without fan.
         fan_first_layers: u32 = 1, "Layers without fan", "", 0.0..=1000.0;
         /// Number of the layer, counted from 1, at which the fan has risen to its speed; layers before
@@ -244,6 +291,58 @@ impl PrinterOptions {
     }
 }
 
+impl PrinterOptions {
+    /// The smallest rectangle around the bed, in the printer's coordinates, mm.
+    pub fn bed(&self) -> Bounds {
+        let size = DVec2::from_array(self.bed_size);
+        let min = match self.origin {
+            Origin::Corner => DVec2::ZERO,
+            Origin::Center => -size / 2.0,
+        };
+        Bounds { min, max: min + size }
+    }
+
+    /// Whether a point is on the bed. Forbidden zones are not looked at.
+    pub fn is_on_bed(&self, p: DVec2) -> bool {
+        /// Coordinates come from f32 vertices: what touches the edge is on the bed, mm.
+        const SLACK: f64 = 1e-3;
+        let Bounds { min, max } = self.bed();
+        let (centre, half) = ((min + max) / 2.0, (max - min) / 2.0 + SLACK);
+        match self.bed_shape {
+            BedShape::Rectangle => (p - centre).abs().cmple(half).all(),
+            BedShape::Round => ((p - centre) / half).length_squared() <= 1.0,
+        }
+    }
+
+    /// Where the head goes when the part is done: the back, on the left where there is a corner.
+    pub(super) fn parking(&self) -> DVec2 {
+        let Bounds { min, max } = self.bed();
+        match self.bed_shape {
+            BedShape::Rectangle => dvec2(min.x, max.y),
+            BedShape::Round => dvec2((min.x + max.x) / 2.0, max.y),
+        }
+    }
+
+    /// Where the prime line begins and ends: along the front edge, `margin` mm from the edges.
+    pub(super) fn prime_line(&self, margin: [f64; 2]) -> [DVec2; 2] {
+        let Bounds { min, max } = self.bed();
+        match self.bed_shape {
+            BedShape::Rectangle => {
+                let from = min + DVec2::from_array(margin);
+                let length = self.prime_length.min(max.x - min.x - 2.0 * margin[0]);
+                [from, from + dvec2(length, 0.0)]
+            }
+            // A chord near the front, where the bed is 0.6 of its diameter wide.
+            BedShape::Round => {
+                let (centre, half) = ((min + max) / 2.0, (max - min) / 2.0);
+                let reach = (self.prime_length / 2.0).min(0.6 * half.x - margin[0]);
+                let y = centre.y - 0.8 * half.y;
+                [dvec2(centre.x - reach, y), dvec2(centre.x + reach, y)]
+            }
+        }
+    }
+}
+
 impl SpeedOptions {
     /// Speed asked for beads of a role, mm/s.
     pub fn of(&self, role: Role) -> f64 {
@@ -293,6 +392,8 @@ pub struct GcodeOptions {
     pub output: OutputOptions,
     /// Setting `ironing.flow`: beads that iron are so much flatter than their layer. Default 0.15.
     pub ironing_flow: f64,
+    /// Objects to be labelled; empty for none.
+    pub objects: Vec<LabelledObject>,
     /// Setting `first_layer.speed`, mm/s: no bead of the first layer is printed faster. Default 25.
     pub first_layer_speed: f64,
     /// Setting `seam.gap`, mm: closed walls end this much before their start. Default 0.
@@ -312,6 +413,7 @@ impl Default for GcodeOptions {
             cooling: CoolingOptions::default(),
             output: OutputOptions::default(),
             ironing_flow: 0.15,
+            objects: Vec::new(),
             first_layer_speed: 25.0,
             seam_gap: 0.0,
         }

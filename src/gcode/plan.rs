@@ -7,7 +7,7 @@ use super::extrude::{Feeder, filament_area};
 use super::tool::{Change, TOOLS};
 use super::{
     FILAMENT_STEPS, FilamentOptions, GcodeOptions, LayerInput, LayerSummary, Limits, Move, Place,
-    RetractionOptions, RoleUse, Stops, move_times,
+    RetractionOptions, RoleUse, Stops, label, move_times,
 };
 use crate::region::{Bead, Path, Role, Width};
 use crate::toolpath::Way;
@@ -67,6 +67,7 @@ pub fn plan_layer(layer: &LayerInput<'_>, options: &GcodeOptions) -> LayerPlan {
     for ((path, way), tool) in layer.paths.iter().zip(told).zip(tools) {
         planner.path(path, way, tool);
     }
+    planner.enter_object(None);
     planner.set_acceleration(options.printer.acceleration);
     let wipe = planner.wipe_way();
     let tools = [planner.first_tool, planner.tool];
@@ -130,6 +131,8 @@ struct Planner<'a> {
     /// What is known of the way to the next bead.
     via: Vec<Place>,
     crosses_outline: bool,
+    /// The labelled object that is being printed.
+    object: Option<usize>,
     role: Option<Role>,
     stated_width: Option<u32>,
     acceleration: u32,
@@ -195,6 +198,7 @@ impl<'a> Planner<'a> {
             at: Place::default(),
             via: Vec::new(),
             crosses_outline: false,
+            object: None,
             role: None,
             stated_width: None,
             acceleration: options.printer.bead_acceleration(options.printer.acceleration),
@@ -223,13 +227,29 @@ impl<'a> Planner<'a> {
         if rest.iter().all(|&p| p == first) {
             return;
         }
+        let object = label::object_at(&self.options.objects, path.role, path.points[0]);
+        if object != self.object {
+            self.enter_object(None);
+        }
         self.come_to(first, tool);
+        self.enter_object(object);
         self.set_role(path.role);
         match &path.width {
             Width::Uniform(width) => self.uniform(path, &places, *width),
             Width::Varying(widths) => self.varying(path, &places, widths),
         }
         self.printed = Printed { places, closed: path.closed };
+    }
+
+    /// Says whose moves end and whose begin. The way between two objects belongs to neither.
+    fn enter_object(&mut self, object: Option<usize>) {
+        if object == self.object {
+            return;
+        }
+        let mark = |place: usize, begins: bool| Move::Object { place: place as u32, begins };
+        self.moves.extend(self.object.map(|place| mark(place, false)));
+        self.moves.extend(object.map(|place| mark(place, true)));
+        self.object = object;
     }
 
     /// Beads of one width along the whole path.
@@ -608,6 +628,7 @@ impl Account {
                 | Move::Height(_)
                 | Move::Fan(_)
                 | Move::Acceleration(_)
+                | Move::Object { .. }
                 | Move::Lift { .. } => {}
             }
         }

@@ -9,8 +9,12 @@ use std::fmt;
 const KNOWN_STATE: &str = "G21 ; millimetres\nG90 ; absolute positions\nM83 ; relative extrusion\n";
 
 /// Names that templates may use in braces.
-pub(super) const PLACEHOLDERS: [&str; 19] = [
+pub(super) const PLACEHOLDERS: [&str; 26] = [
     "acceleration",
+    "bed_max_x",
+    "bed_max_y",
+    "bed_min_x",
+    "bed_min_y",
     "bed_size_x",
     "bed_size_y",
     "bed_temp",
@@ -22,7 +26,10 @@ pub(super) const PLACEHOLDERS: [&str; 19] = [
     "layer_count",
     "nozzle_diameter",
     "nozzle_temp",
+    "park_x",
+    "park_y",
     "park_z",
+    "pressure_advance",
     "print_height",
     "printer_height",
     "retract_acceleration",
@@ -53,6 +60,15 @@ pub enum GcodeError {
         /// What is wrong.
         cause: String,
     },
+    /// `{if ...}` that is not a placeholder, a comparison and a value, or `{else}` or `{endif}` without it.
+    BadCondition {
+        /// Path of the setting.
+        setting: &'static str,
+        /// Line of the template, from 1.
+        line: usize,
+        /// The words in braces.
+        words: String,
+    },
     /// A brace without its partner in the same line.
     LooseBrace {
         /// Path of the setting.
@@ -73,6 +89,13 @@ impl fmt::Display for GcodeError {
                 )
             }
             GcodeError::Contradiction { setting, cause } => write!(f, "{setting}: {cause}"),
+            GcodeError::BadCondition { setting, line, words } => {
+                write!(
+                    f,
+                    "{setting}: line {line}: {{{words}}}: conditions are {{if NAME > 1}}, with ==, !=, <, >, <= or \
+                     >=, then {{else}} and {{endif}}"
+                )
+            }
             GcodeError::LooseBrace { setting, line } => {
                 write!(f, "{setting}: line {line}: a brace without its partner")
             }
@@ -82,13 +105,14 @@ impl fmt::Display for GcodeError {
 
 impl std::error::Error for GcodeError {}
 
-/// Checks the placeholders of start and end code, so that [`super::join()`] cannot fail later.
+/// Checks the placeholders and conditions of start and end code, so that [`super::join()`] cannot fail
+/// later.
 pub fn check_templates(printer: &PrinterOptions) -> Result<(), GcodeError> {
-    let blank = |_: &str| Some(String::new());
+    let blank = |name: &str| PLACEHOLDERS.contains(&name).then(String::new);
     for (setting, template) in
         [("printer.start_gcode", &printer.start_gcode), ("printer.end_gcode", &printer.end_gcode)]
     {
-        expand(template, setting, |name| PLACEHOLDERS.contains(&name).then(|| blank(name)).flatten())?;
+        expand(template, setting, blank)?;
     }
     Ok(())
 }
@@ -111,7 +135,11 @@ pub(super) fn start_code(options: &GcodeOptions, facts: PrintFacts) -> Result<St
     let heating = Heating::of(template, &own);
     let filament = &options.filament;
 
-    let mut text = format!("{KNOWN_STATE}M107 ; fan off\n{accelerations}");
+    let dialect = printer.flavor.dialect();
+    let mut text = format!("{KNOWN_STATE}{} ; fan off\n{accelerations}", dialect.fan_off);
+    if filament.pressure_advance > 0.0 {
+        text += &expand(dialect.pressure_advance, "printer.flavor", fill)?;
+    }
     if !heating.bed && filament.first_layer_bed_temp > 0.0 {
         let temp = filament.first_layer_bed_temp;
         text += &format!("M140 S{temp} ; heat the bed\nM190 S{temp} ; wait for the bed\n");
@@ -142,45 +170,123 @@ pub(super) fn end_code(options: &GcodeOptions, facts: PrintFacts) -> Result<Stri
     let own = expand(template, "printer.end_gcode", |name| placeholder(name, options, facts))?;
     let mut text = String::new();
     push_block(&mut text, &own);
-    for (command, line) in
-        [("M104", "M104 S0 ; nozzle off\n"), ("M140", "M140 S0 ; bed off\n"), ("M107", "M107 ; fan off\n")]
-    {
+    // Macros with a speaking name switch off themselves; that is what they are for.
+    if own.lines().any(is_end_macro) {
+        return Ok(text);
+    }
+    for (command, line) in [("M104", "M104 S0 ; nozzle off\n"), ("M140", "M140 S0 ; bed off\n")] {
         if !own.lines().any(|l| command_of(l) == command) {
             text += line;
         }
     }
+    if !own.lines().any(|l| matches!(command_of(l).as_str(), "M106" | "M107")) {
+        text += &format!("{} ; fan off\n", options.printer.flavor.dialect().fan_off);
+    }
     Ok(text)
 }
 
-/// Appends lines, ending with a line feed, without carriage returns.
+/// Whether a line calls a Klipper macro that ends the print, by the names in use for it
+/// (klipper3d.org, `sample-macros.cfg`, and the printers' makers).
+fn is_end_macro(line: &str) -> bool {
+    matches!(command_of(line).as_str(), "END_PRINT" | "PRINT_END")
+}
+
+/// Appends lines, ending with a line feed, without carriage returns. Empty ones, such as conditions
+/// leave, are dropped.
 fn push_block(text: &mut String, block: &str) {
-    for line in block.lines() {
-        text.push_str(line.trim_end());
+    for line in block.lines().map(str::trim_end).filter(|line| !line.is_empty()) {
+        text.push_str(line);
         text.push('\n');
     }
 }
 
-/// Replaces the words in braces.
+/// Replaces the words in braces and keeps or drops what stands between `{if NAME > 1}`, `{else}` and
+/// `{endif}`. Line feeds are kept all, so that lines of template and text correspond.
 pub(super) fn expand(
     template: &str,
     setting: &'static str,
     value: impl Fn(&str) -> Option<String>,
 ) -> Result<String, GcodeError> {
     let mut out = String::with_capacity(template.len());
+    let mut open: Vec<Branch> = Vec::new();
+    let mut last = 1;
     for (line, mut rest) in (1..).zip(template.split_inclusive('\n')) {
+        last = line;
+        let loose = || GcodeError::LooseBrace { setting, line };
+        let bad = |words: &str| GcodeError::BadCondition { setting, line, words: words.to_owned() };
         while let Some((before, after)) = rest.split_once('{') {
-            let (name, behind) = after.split_once('}').ok_or(GcodeError::LooseBrace { setting, line })?;
-            let unknown = || GcodeError::UnknownPlaceholder { setting, line, name: name.trim().to_owned() };
-            out += before;
-            out += &value(name.trim()).ok_or_else(unknown)?;
+            let (words, behind) = after.split_once('}').ok_or_else(loose)?;
+            let words = words.trim();
+            push_if_kept(&mut out, before, &open);
+            match words.split_whitespace().next() {
+                Some("if") => {
+                    open.push(Branch { holds: condition(words, setting, line, &value)?, in_else: false })
+                }
+                Some("else") if words == "else" => {
+                    let branch = open.last_mut().filter(|b| !b.in_else).ok_or_else(|| bad(words))?;
+                    *branch = Branch { holds: !branch.holds, in_else: true };
+                }
+                Some("endif") if words == "endif" => {
+                    open.pop().ok_or_else(|| bad(words))?;
+                }
+                _ => {
+                    let unknown = || GcodeError::UnknownPlaceholder { setting, line, name: words.to_owned() };
+                    let filled = value(words).ok_or_else(unknown)?;
+                    push_if_kept(&mut out, &filled, &open);
+                }
+            }
             rest = behind;
         }
         if rest.contains('}') {
-            return Err(GcodeError::LooseBrace { setting, line });
+            return Err(loose());
         }
-        out += rest;
+        push_if_kept(&mut out, rest, &open);
     }
-    Ok(out)
+    if open.is_empty() {
+        return Ok(out);
+    }
+    Err(GcodeError::BadCondition { setting, line: last, words: "endif missing".to_owned() })
+}
+
+/// An `{if}` that is not closed yet.
+struct Branch {
+    /// Whether what stands here is kept.
+    holds: bool,
+    in_else: bool,
+}
+
+fn push_if_kept(out: &mut String, text: &str, open: &[Branch]) {
+    match open.iter().all(|b| b.holds) {
+        true => out.push_str(text),
+        false => out.extend(text.matches('\n')),
+    }
+}
+
+/// Whether `if NAME OP VALUE` holds: as numbers if both sides are, else as words.
+fn condition(
+    words: &str,
+    setting: &'static str,
+    line: usize,
+    value: &impl Fn(&str) -> Option<String>,
+) -> Result<bool, GcodeError> {
+    let bad = || GcodeError::BadCondition { setting, line, words: words.to_owned() };
+    let [_, name, op, right] = words.split_whitespace().collect::<Vec<_>>()[..] else { return Err(bad()) };
+    let left =
+        value(name).ok_or_else(|| GcodeError::UnknownPlaceholder { setting, line, name: name.to_owned() })?;
+    let right = right.trim_matches('"');
+    let order = match (left.parse::<f64>(), right.parse::<f64>()) {
+        (Ok(a), Ok(b)) => a.total_cmp(&b),
+        _ => left.as_str().cmp(right),
+    };
+    match op {
+        "==" => Ok(order.is_eq()),
+        "!=" => Ok(order.is_ne()),
+        "<" => Ok(order.is_lt()),
+        ">" => Ok(order.is_gt()),
+        "<=" => Ok(order.is_le()),
+        ">=" => Ok(order.is_ge()),
+        _ => Err(bad()),
+    }
 }
 
 /// The value of a placeholder; `None` if there is none of this name.
@@ -188,6 +294,10 @@ fn placeholder(name: &str, options: &GcodeOptions, facts: PrintFacts) -> Option<
     let GcodeOptions { printer, filament, speed, .. } = options;
     let number = match name {
         "acceleration" => printer.acceleration,
+        "bed_max_x" => printer.bed().max.x,
+        "bed_max_y" => printer.bed().max.y,
+        "bed_min_x" => printer.bed().min.x,
+        "bed_min_y" => printer.bed().min.y,
         "bed_size_x" => printer.bed_size[0],
         "bed_size_y" => printer.bed_size[1],
         "bed_temp" => filament.bed_temp,
@@ -200,6 +310,9 @@ fn placeholder(name: &str, options: &GcodeOptions, facts: PrintFacts) -> Option<
         "layer_count" => return Some(facts.layer_count.to_string()),
         "nozzle_diameter" => printer.nozzle_diameter,
         "nozzle_temp" => filament.nozzle_temp,
+        "park_x" => printer.parking().x,
+        "park_y" => printer.parking().y,
+        "pressure_advance" => filament.pressure_advance,
         "park_z" => (facts.print_height + PARK_ABOVE).min(printer.height).max(facts.print_height),
         "print_height" => facts.print_height,
         "printer_height" => printer.height,
@@ -243,7 +356,11 @@ impl Heating {
             "M104" => false,
             _ => names(line, "nozzle_temp}"),
         };
-        let waits_at = template.lines().position(waits);
+        // What a condition has dropped does nothing.
+        let said = |line: &str, became: &str| if became.trim().is_empty() { "" } else { line }.to_owned();
+        let lines: Vec<String> =
+            template.lines().zip(expanded.lines()).map(|(line, became)| said(line, became)).collect();
+        let waits_at = lines.iter().position(|line| waits(line));
         let mut steps = Reader::new(expanded.as_bytes());
         let extrudes_at = steps.find(|step| step.filament_mm != 0.0).map(|step| step.line as usize - 1);
         let nozzle = match (waits_at, extrudes_at) {
@@ -252,7 +369,7 @@ impl Heating {
             (None, Some(_)) => NozzleHeating::TooLate,
             (None, None) => NozzleHeating::Missing,
         };
-        Heating { bed: template.lines().any(heats_bed), nozzle }
+        Heating { bed: lines.iter().any(|line| heats_bed(line)), nozzle }
     }
 }
 
@@ -361,6 +478,37 @@ mod tests {
             let found = check_templates(&options(loose).printer).expect_err("loose brace");
             assert_eq!(found.to_string(), "printer.start_gcode: line 1: a brace without its partner");
         }
+    }
+
+    #[test]
+    fn conditions_choose_lines_and_parts_of_lines() {
+        let code = "{if bed_temp > 50}\nM190 S{bed_temp}\n{else}\nM117 cold bed\n{endif}\n\
+                    G28{if filament_type == TPU} X{endif}\n{if layer_count != 3}{if nozzle_temp > 1}M300{endif}{endif}\n";
+        let text = started(code);
+        assert!(text.contains("\nM190 S60\nG28\nM109"), "{text}");
+        assert!(!text.contains("M117") && !text.contains("M300") && !text.contains("\n\n"), "{text}");
+        let mut cold = options(code);
+        cold.filament.bed_temp = 0.0;
+        let text = start_code(&cold, FACTS).expect("good");
+        // The dropped M190 heats nothing: the first layer's 60 degrees are added.
+        assert!(text.contains("M190 S60 ; wait") && text.contains("\nM117 cold bed\nG28\n"), "{text}");
+    }
+
+    #[test]
+    fn conditions_that_cannot_be_read_are_named() {
+        for (code, words) in [
+            ("{if bed_temp}", "if bed_temp"),
+            ("{if bed_temp ~ 3}{endif}", "if bed_temp ~ 3"),
+            ("{else}", "else"),
+            ("G28\n{endif}", "endif"),
+            ("{if bed_temp > 3}\nG28", "endif missing"),
+            ("{if bed_temp > 3}{else}{else}{endif}", "else"),
+        ] {
+            let found = check_templates(&options(code).printer).expect_err(code);
+            assert!(matches!(&found, GcodeError::BadCondition { words: w, .. } if w == words), "{found}");
+        }
+        let found = check_templates(&options("{if tmp > 3}{endif}").printer).expect_err("unknown");
+        assert!(matches!(found, GcodeError::UnknownPlaceholder { .. }));
     }
 
     #[test]

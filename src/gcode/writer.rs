@@ -1,9 +1,9 @@
 //! Moves to text. A part can need 50 MB of it, so numbers are printed by integer arithmetic, each
 //! line in a small buffer of its own and then appended at once.
 
-use super::flavor::{Dialect, Flavor};
+use super::flavor::Dialect;
 use super::plan::LayerPlan;
-use super::{MARK_EVERY_S, Move, Place};
+use super::{GcodeOptions, LabelledObject, MARK_EVERY_S, Move, Place, label};
 use crate::region::Role;
 
 /// Longest line of a move: letters, signs, 10 digits and a point for each of six words, with room.
@@ -30,9 +30,9 @@ pub const fn type_name(role: Role) -> &'static str {
 }
 
 /// The text of a layer; `marks` gets the places where progress can be reported.
-pub(super) fn write_layer(plan: &LayerPlan, flavor: Flavor, marks: &mut Vec<(u32, f64)>) -> Vec<u8> {
+pub(super) fn write_layer(plan: &LayerPlan, options: &GcodeOptions, marks: &mut Vec<(u32, f64)>) -> Vec<u8> {
     // A line of a bead has some 27 bytes.
-    let mut writer = Writer::after(Vec::with_capacity(plan.moves.len() * 28), flavor);
+    let mut writer = Writer::after(Vec::with_capacity(plan.moves.len() * 28), options);
     let (mut passed, mut marked) = (0.0, 0.0);
     for (&step, &time) in plan.moves.iter().zip(&plan.times) {
         if passed - marked >= MARK_EVERY_S {
@@ -47,17 +47,19 @@ pub(super) fn write_layer(plan: &LayerPlan, flavor: Flavor, marks: &mut Vec<(u32
 
 /// Writes moves, leaving out words that have not changed since it began.
 #[derive(Debug)]
-pub(super) struct Writer {
+pub(super) struct Writer<'a> {
     pub(super) out: Vec<u8>,
     dialect: &'static Dialect,
+    objects: &'a [LabelledObject],
     at: Option<Place>,
     feed: Option<u32>,
 }
 
-impl Writer {
+impl<'a> Writer<'a> {
     /// A writer that goes on behind `out`, without knowing what the machine did there.
-    pub(super) fn after(out: Vec<u8>, flavor: Flavor) -> Writer {
-        Writer { out, dialect: flavor.dialect(), at: None, feed: None }
+    pub(super) fn after(out: Vec<u8>, options: &'a GcodeOptions) -> Writer<'a> {
+        let dialect = options.printer.flavor.dialect();
+        Writer { out, dialect, objects: &options.objects, at: None, feed: None }
     }
 
     /// Appends one move.
@@ -66,8 +68,12 @@ impl Writer {
             Move::Role(role) => self.comment(b";TYPE:", type_name(role).as_bytes()),
             Move::Width(width) => self.line(|line| line.text(b";WIDTH:").thousandths(i64::from(width))),
             Move::Height(height) => self.line(|line| line.text(b";HEIGHT:").thousandths(i64::from(height))),
-            Move::Fan(0) => self.out.extend_from_slice(b"M107\n"),
+            Move::Fan(0) => self.comment(self.dialect.fan_off.as_bytes(), b""),
             Move::Fan(duty) => self.line(|line| line.text(b"M106 S").integer(u32::from(duty))),
+            Move::Object { place, begins } => {
+                let line = label::mark(self.dialect.labels, self.objects, place as usize, begins);
+                self.out.extend_from_slice(line.as_bytes());
+            }
             Move::Acceleration(acceleration) => {
                 let line = self.dialect.bead_acceleration;
                 let line = line.replace("{bead_acceleration}", &acceleration.to_string());
@@ -250,7 +256,8 @@ mod tests {
     use crate::gcode::Curve;
 
     fn written(moves: &[Move]) -> String {
-        let mut writer = Writer::after(Vec::new(), Flavor::Marlin);
+        let options = GcodeOptions::default();
+        let mut writer = Writer::after(Vec::new(), &options);
         moves.iter().for_each(|&m| writer.write(m));
         String::from_utf8(writer.out).expect("ASCII")
     }

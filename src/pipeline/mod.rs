@@ -4,6 +4,7 @@
 //! plan, base layers. [`Job::slice`] works a range of layers; an engine that does not hold the job
 //! gets a [`Share`] and does the same. [`Job::finish`] joins the layers in one pass.
 
+mod check;
 mod compare;
 mod place;
 mod range;
@@ -29,12 +30,15 @@ use crate::adhesion::{
     AdhesionError, AdhesionKind, AdhesionOptions, AdhesionWarning, FirstLayer, Foundation, RaftLayer,
     TeethDrawing, lay_foundation,
 };
-use crate::gcode::{FileNotes, GcodeError, Joined, LayerSummary, event_layers, format_duration, join};
+use crate::gcode::{
+    FileNotes, GcodeError, GcodeOptions, Joined, LabelledObject, LayerSummary, event_layers, format_duration,
+    join, labelled_objects,
+};
 use crate::mesh::LoadedModel;
 use crate::mesh::Mesh;
 use crate::orientation::{OrientationError, OrientationReport};
+use crate::polygon::PolygonSet;
 use crate::polygon::measure::Bounds;
-use crate::polygon::{DVec2, PolygonSet};
 use crate::region::first_layer::draw_in;
 use crate::region::{Bead, Path};
 use crate::settings::Settings;
@@ -132,6 +136,7 @@ pub struct Job {
     spans: Vec<[f32; 2]>,
     specs: Vec<LayerSpec>,
     placements: Vec<DMat4>,
+    objects: Vec<LabelledObject>,
     /// For each layer the beads of base layers and supports, in printing order.
     laid: Vec<Vec<Path>>,
     /// See [`RangePlan::seams`].
@@ -159,9 +164,10 @@ impl Job {
         let settings = checked(settings)?;
         let turned = turn_models(models, &settings)?;
         let meshes: Vec<&Mesh> = turned.meshes.iter().collect();
-        let Placed { mesh, placements } = place_on_bed(&meshes, &settings.printer).map_err(JobError::Fit)?;
-        let placements = placements.iter().zip(&turned.turns).map(|(place, turn)| *place * *turn).collect();
-        Job::standing(models, Placed { mesh, placements }, turned, settings, started_ms)
+        let mut placed = place_on_bed(&meshes, &settings.printer).map_err(JobError::Fit)?;
+        placed.placements =
+            placed.placements.iter().zip(&turned.turns).map(|(place, turn)| *place * *turn).collect();
+        Job::standing(models, placed, turned, settings, started_ms)
     }
 
     /// Like [`Job::new`], with the models where `placements` (file to bed coordinates, one for each
@@ -182,7 +188,7 @@ impl Job {
 
     fn standing(
         models: &[NamedModel],
-        Placed { mesh, placements }: Placed,
+        Placed { mesh, placements, footprints }: Placed,
         turned: Turned,
         settings: Settings,
         started_ms: f64,
@@ -196,11 +202,14 @@ impl Job {
             let [a, b, c] = mesh.corners(t).map(|v| v.z);
             [a.min(b).min(c), a.max(b).max(c)]
         };
+        let remarks = check::check(&settings, &footprints);
+        let names = models.iter().map(|m| m.name.as_str());
+        let objects = labelled_objects(names.zip(footprints), &settings.printer);
         Ok(Job {
             name: models.first().map_or_else(String::new, |m| m.name.clone()),
             spans: (0..mesh.triangles.len()).map(z_span).collect(),
             layers: vec![None; specs.len()],
-            warnings: model_warnings(models).into_iter().chain(turned.warnings).collect(),
+            warnings: model_warnings(models).into_iter().chain(turned.warnings).chain(remarks).collect(),
             orientation: turned.report,
             laid: Vec::new(),
             seams: Vec::new(),
@@ -208,6 +217,7 @@ impl Job {
             teeth: None,
             after: Vec::new(),
             support: None,
+            objects,
             adhesion: AdhesionReport::default(),
             timing: Timing::default(),
             settings,
@@ -363,7 +373,7 @@ impl Job {
 
     /// The printable area of the bed.
     pub fn bed(&self) -> Bounds {
-        Bounds { min: DVec2::ZERO, max: DVec2::from_array(self.settings.printer.bed_size) }
+        self.settings.printer.bed()
     }
 
     /// What other settings than the job's lay around or below the part without supports.
@@ -443,6 +453,7 @@ impl Job {
             line_density: self.line_density,
             laid: self.laid[first.min(self.laid.len())..last.min(self.laid.len())].to_vec(),
             after: self.after[first.min(self.after.len())..last.min(self.after.len())].to_vec(),
+            objects: self.objects.clone(),
         }
     }
 
@@ -473,7 +484,8 @@ impl Job {
             self.layers.iter_mut().enumerate().map(take).collect::<Result<_, _>>()?;
         let started = clock();
         let notes = FileNotes { head: &[], settings: &self.settings.lines() };
-        let joined = join(&summaries, &self.settings.gcode_options(), &notes).map_err(JobError::Gcode)?;
+        let options = GcodeOptions { objects: self.objects.clone(), ..self.settings.gcode_options() };
+        let joined = join(&summaries, &options, &notes).map_err(JobError::Gcode)?;
         self.timing.gcode += clock() - started;
         self.timing.total = clock() - self.started_ms + self.timing.parse;
         self.warnings.sort_by_key(|w| w.layer);
@@ -589,10 +601,11 @@ fn model_warnings(models: &[NamedModel]) -> Vec<Warning> {
 
 fn support_warning(found: &SupportWarning) -> Warning {
     let SupportWarning { code, message, layer, at } = found.clone();
-    Warning { code, message, layer, at }
+    Warning { code, message, layer, at, fix: Vec::new() }
 }
 
 fn adhesion_warning(found: &AdhesionWarning) -> Warning {
     let at = found.at.map(|p| p.to_array());
-    Warning { code: found.code.name().to_owned(), message: found.message.clone(), layer: Some(0), at }
+    let code = found.code.name().to_owned();
+    Warning { code, message: found.message.clone(), layer: Some(0), at, fix: Vec::new() }
 }

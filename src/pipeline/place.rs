@@ -2,10 +2,12 @@
 
 use std::fmt;
 
-use glam::{DMat4, DVec3, dvec3};
+use glam::{DMat3, DMat4, DVec3, dvec3};
 
-use crate::gcode::PrinterOptions;
+use crate::gcode::{BedShape, PrinterOptions};
 use crate::mesh::{Box3, Mesh, TransformError};
+use crate::polygon::measure::Bounds;
+use crate::polygon::{DVec2, trig};
 
 /// Free space between models that are printed together, mm.
 const BETWEEN_MODELS: f64 = 10.0;
@@ -22,6 +24,10 @@ pub enum FitError {
         size: DVec3,
         /// Bed width and depth and the printer's height, mm.
         room: DVec3,
+        /// Whether the bed is round.
+        round: bool,
+        /// What would make it fit.
+        hint: FitHint,
     },
     /// Where the caller put it, a model stands outside.
     Outside {
@@ -29,8 +35,10 @@ pub enum FitError {
         index: usize,
         /// What it reaches over, mm.
         reach: [DVec3; 2],
-        /// Bed width and depth and the printer's height, mm.
-        room: DVec3,
+        /// The printer's room, lowest and highest corner, mm.
+        room: [DVec3; 2],
+        /// Whether the bed is round.
+        round: bool,
     },
     /// A placement that cannot be applied.
     Placement {
@@ -41,18 +49,45 @@ pub enum FitError {
     },
 }
 
+/// What would make a model fit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FitHint {
+    /// Turning it about the vertical axis by this angle.
+    Turned {
+        /// Whole degrees, counter-clockwise.
+        degrees: u32,
+    },
+    /// Laying it down, so that this axis of its file points up.
+    Laid {
+        /// "x" or "y".
+        up: &'static str,
+    },
+    /// Nothing but making it smaller.
+    Scaled {
+        /// Largest size that fits, in whole percent.
+        percent: u32,
+    },
+}
+
 impl fmt::Display for FitError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let on_round = |round: &bool| if *round { " with a round bed" } else { "" };
         match self {
-            FitError::TooLarge { size, room } => {
+            FitError::TooLarge { size, room, round, hint } => {
                 write!(f, "does not fit the printer: {:.1} x {:.1} x {:.1} mm", size.x, size.y, size.z)?;
-                write!(f, " in {} x {} x {} mm", room.x, room.y, room.z)
+                write!(f, " in {} x {} x {} mm{}", room.x, room.y, room.z, on_round(round))?;
+                match hint {
+                    FitHint::Turned { degrees } => write!(f, "; turned by {degrees} degrees it fits"),
+                    FitHint::Laid { up } => write!(f, "; it fits lying, with its {up} axis up"),
+                    FitHint::Scaled { percent } => write!(f, "; at {percent} % of its size it fits"),
+                }
             }
-            FitError::Outside { index, reach: [low, high], room } => {
+            FitError::Outside { index, reach: [low, high], room: [from, to], round } => {
                 write!(f, "does not fit the printer: part {} reaches", index + 1)?;
                 write!(f, " from ({:.1}, {:.1}, {:.1})", low.x, low.y, low.z)?;
                 write!(f, " to ({:.1}, {:.1}, {:.1}) mm,", high.x, high.y, high.z)?;
-                write!(f, " the room from (0, 0, 0) to ({}, {}, {})", room.x, room.y, room.z)
+                write!(f, " the room from ({}, {}, {})", from.x, from.y, from.z)?;
+                write!(f, " to ({}, {}, {}){}", to.x, to.y, to.z, on_round(round))
             }
             FitError::Placement { index, cause } => write!(f, "part {}: {cause}", index + 1),
         }
@@ -68,32 +103,120 @@ pub struct Placed {
     pub mesh: Mesh,
     /// For each model the matrix from its file's coordinates to the bed's.
     pub placements: Vec<DMat4>,
+    /// For each model its box on the bed.
+    pub footprints: Vec<Bounds>,
 }
 
 /// Drops the models on the bed, row by row in their order, the whole group centred. Empty models
 /// are not allowed.
 pub fn place_on_bed(models: &[&Mesh], printer: &PrinterOptions) -> Result<Placed, FitError> {
     let boxes: Vec<Box3> = models.iter().filter_map(|m| m.bounds()).collect();
-    let moves = arrange(&boxes, printer)?;
-    let placements: Vec<DMat4> = moves.into_iter().map(DMat4::from_translation).collect();
-    let mut mesh = Mesh::default();
-    for (model, placement) in models.iter().zip(&placements) {
-        mesh.append(&model.transformed(placement).expect("what fits the bed is within reach"));
+    let (moves, size) = rows(&boxes, printer);
+    let too_large = || {
+        let of_model = |(m, by): (&&Mesh, &DVec3)| {
+            let by = *by;
+            m.vertices.iter().map(move |v| v.as_dvec3() + by).collect::<Vec<_>>()
+        };
+        let points: Vec<DVec3> = models.iter().zip(&moves).flat_map(of_model).collect();
+        too_large(size, &points, models.len() == 1, printer)
+    };
+    if size.cmpgt(room_of(printer)).any() {
+        return Err(too_large());
     }
-    Ok(Placed { mesh, placements })
+    let placements: Vec<DMat4> = moves.iter().copied().map(DMat4::from_translation).collect();
+    let (mut mesh, mut footprints) = (Mesh::default(), Vec::new());
+    for (model, placement) in models.iter().zip(&placements) {
+        let placed = model.transformed(placement).expect("what fits the bed is within reach");
+        if !stands_on_bed(&placed, printer) {
+            return Err(too_large());
+        }
+        footprints.push(footprint(&placed));
+        mesh.append(&placed);
+    }
+    Ok(Placed { mesh, placements, footprints })
 }
 
-/// The moves that bring boxes to the bed, row by row in their order, the whole group centred.
+/// What a model covers of the bed; nothing at all for an empty one.
+fn footprint(placed: &Mesh) -> Bounds {
+    let box_of = |b: Box3| [b.min, b.max].map(|v| v.as_dvec3().truncate());
+    let [min, max] = placed.bounds().map_or_else(Default::default, box_of);
+    Bounds { min, max }
+}
+
+/// Whether no point is beside a round bed; boxes tell for others.
+fn stands_on_bed(mesh: &Mesh, printer: &PrinterOptions) -> bool {
+    printer.bed_shape == BedShape::Rectangle
+        || mesh.vertices.iter().all(|v| printer.is_on_bed(v.as_dvec3().truncate()))
+}
+
+/// Steps in which turning is tried, degrees.
+const TURN_STEP: u32 = 5;
+
+/// The error for models with these points, arranged side by side.
+fn too_large(size: DVec3, points: &[DVec3], single: bool, printer: &PrinterOptions) -> FitError {
+    let round = printer.bed_shape == BedShape::Round;
+    FitError::TooLarge { size, room: room_of(printer), round, hint: hint(points, single, printer) }
+}
+
+/// What would make the placed models fit. Several are only made smaller: turning them is arranging.
+fn hint(points: &[DVec3], single: bool, printer: &PrinterOptions) -> FitHint {
+    let largest = |turn: DMat3| largest_scale(points.iter().map(|&p| turn * p), printer);
+    if single {
+        let about_z = |degrees: u32| {
+            let (sin, cos) = trig::sin_cos(f64::from(degrees).to_radians());
+            DMat3::from_cols(dvec3(cos, sin, 0.0), dvec3(-sin, cos, 0.0), DVec3::Z)
+        };
+        let turns = (1..180 / TURN_STEP).map(|k| k * TURN_STEP);
+        // A quarter first: it is the turn that is easiest to do.
+        if let Some(degrees) = std::iter::once(90).chain(turns).find(|&d| largest(about_z(d)) >= 1.0) {
+            return FitHint::Turned { degrees };
+        }
+        // Where x, y and z go.
+        let lying = [("x", [DVec3::Z, DVec3::X, DVec3::Y]), ("y", [DVec3::X, DVec3::Z, DVec3::NEG_Y])];
+        if let Some((up, _)) =
+            lying.into_iter().find(|(_, [a, b, c])| largest(DMat3::from_cols(*a, *b, *c)) >= 1.0)
+        {
+            return FitHint::Laid { up };
+        }
+    }
+    FitHint::Scaled { percent: (largest(DMat3::IDENTITY) * 100.0).floor().max(0.0) as u32 }
+}
+
+/// The scale at which the points just fit, their box in the middle of the bed.
+fn largest_scale(points: impl Iterator<Item = DVec3> + Clone, printer: &PrinterOptions) -> f64 {
+    let low = points.clone().fold(DVec3::INFINITY, DVec3::min);
+    let high = points.clone().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let half = DVec2::from_array(printer.bed_size) / 2.0;
+    let centre = ((low + high) / 2.0).truncate();
+    let across = match printer.bed_shape {
+        BedShape::Rectangle => (half / ((high - low).truncate() / 2.0)).min_element(),
+        BedShape::Round => {
+            points.map(|p| ((p.truncate() - centre) / half).length()).fold(0.0, f64::max).recip()
+        }
+    };
+    across.min(printer.height / (high.z - low.z))
+}
+
+/// The moves that bring boxes to the bed, row by row in their order, the whole group centred. Of a
+/// round bed only the square around it is looked at.
 pub fn arrange(boxes: &[Box3], printer: &PrinterOptions) -> Result<Vec<DVec3>, FitError> {
+    let (moves, size) = rows(boxes, printer);
+    if size.cmpgt(room_of(printer)).any() {
+        let corners = |(b, by): (&Box3, &DVec3)| corners_of(b).map(|p| p + *by);
+        let points: Vec<DVec3> = boxes.iter().zip(&moves).flat_map(corners).collect();
+        return Err(too_large(size, &points, boxes.len() == 1, printer));
+    }
+    Ok(moves)
+}
+
+/// The moves that bring boxes to the bed whether or not they fit, and the size of the whole group.
+fn rows(boxes: &[Box3], printer: &PrinterOptions) -> (Vec<DVec3>, DVec3) {
     let room = room_of(printer);
     let corners = lay_out_rows(boxes, room.x);
     let ends = corners.iter().zip(boxes).map(|(c, b)| *c + size_of(b));
     let size = ends.fold(DVec3::ZERO, DVec3::max);
-    if size.cmpgt(room).any() {
-        return Err(FitError::TooLarge { size, room });
-    }
-    let centring = ((room - size) / 2.0).with_z(0.0);
-    Ok(corners.iter().zip(boxes).map(|(c, b)| *c + centring - b.min.as_dvec3()).collect())
+    let to_middle = printer.bed().min.extend(0.0) + ((room - size) / 2.0).with_z(0.0);
+    (corners.iter().zip(boxes).map(|(c, b)| *c + to_middle - b.min.as_dvec3()).collect(), size)
 }
 
 /// The models as `placements` say, one each; all of them must stand inside the printer.
@@ -102,24 +225,37 @@ pub fn place_as_told(
     placements: &[DMat4],
     printer: &PrinterOptions,
 ) -> Result<Placed, FitError> {
-    let room = room_of(printer);
-    let mut mesh = Mesh::default();
+    let front_left = printer.bed().min.extend(0.0);
+    let room = [front_left, front_left + room_of(printer)];
+    let round = printer.bed_shape == BedShape::Round;
+    let (mut mesh, mut footprints) = (Mesh::default(), Vec::new());
     for (index, (model, placement)) in models.iter().zip(placements).enumerate() {
         let placed = model.transformed(placement).map_err(|cause| FitError::Placement { index, cause })?;
         if let Some(b) = placed.bounds() {
             let reach = [b.min.as_dvec3(), b.max.as_dvec3()];
             let [low, high] = [reach[0] + EDGE_TOLERANCE, reach[1] - EDGE_TOLERANCE];
-            if low.cmplt(DVec3::ZERO).any() || high.cmpgt(room).any() {
-                return Err(FitError::Outside { index, reach, room });
+            let beside = low.cmplt(room[0]).any() || high.cmpgt(room[1]).any();
+            if beside || !stands_on_bed(&placed, printer) {
+                return Err(FitError::Outside { index, reach, room, round });
             }
         }
+        footprints.push(footprint(&placed));
         mesh.append(&placed);
     }
-    Ok(Placed { mesh, placements: placements.to_vec() })
+    Ok(Placed { mesh, placements: placements.to_vec(), footprints })
 }
 
+/// Width and depth of the smallest rectangle around the bed, and the printer's height, mm.
 fn room_of(printer: &PrinterOptions) -> DVec3 {
-    dvec3(printer.bed_size[0], printer.bed_size[1], printer.height)
+    DVec2::from_array(printer.bed_size).extend(printer.height)
+}
+
+fn corners_of(b: &Box3) -> [DVec3; 8] {
+    let [low, high] = [b.min.as_dvec3(), b.max.as_dvec3()];
+    let pick = |k: usize, bit: usize, low: f64, high: f64| if k >> bit & 1 == 0 { low } else { high };
+    std::array::from_fn(|k| {
+        dvec3(pick(k, 0, low.x, high.x), pick(k, 1, low.y, high.y), pick(k, 2, low.z, high.z))
+    })
 }
 
 fn size_of(b: &Box3) -> DVec3 {
@@ -198,7 +334,42 @@ mod tests {
         let error = place_on_bed(&[&block(300.0, 10.0, 5.0)], &PrinterOptions::default()).unwrap_err();
         assert_eq!(
             error.to_string(),
-            "does not fit the printer: 300.0 x 10.0 x 5.0 mm in 220 x 220 x 250 mm"
+            "does not fit the printer: 300.0 x 10.0 x 5.0 mm in 220 x 220 x 250 mm; turned by 45 degrees it fits"
         );
+    }
+
+    fn hint_for(mesh: &Mesh, printer: &PrinterOptions) -> FitHint {
+        match place_on_bed(&[mesh], printer) {
+            Err(FitError::TooLarge { hint, .. }) => hint,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn the_least_trouble_is_proposed() {
+        let bed = PrinterOptions { bed_size: [200.0, 100.0], height: 300.0, ..PrinterOptions::default() };
+        assert_eq!(hint_for(&block(90.0, 190.0, 5.0), &bed), FitHint::Turned { degrees: 90 });
+        assert_eq!(hint_for(&block(250.0, 90.0, 50.0), &bed), FitHint::Laid { up: "x" });
+        assert_eq!(hint_for(&block(150.0, 250.0, 90.0), &bed), FitHint::Laid { up: "y" });
+        assert_eq!(hint_for(&block(400.0, 400.0, 400.0), &bed), FitHint::Scaled { percent: 25 });
+        // On a round bed of 200 mm a square's diagonal may have 200 mm.
+        let round = PrinterOptions { bed_size: [200.0, 200.0], bed_shape: BedShape::Round, ..bed };
+        assert!(place_on_bed(&[&square(141.0)], &round).is_ok());
+        assert_eq!(hint_for(&square(150.0), &round), FitHint::Scaled { percent: 94 });
+    }
+
+    /// A square on the bed with all four corners and a tip too high to lay it down.
+    fn square(side: f32) -> Mesh {
+        let corner = |x: f32, y: f32| Vec3::new(x * side, y * side, 0.0);
+        let vertices =
+            vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0), Vec3::Z * 290.0];
+        Mesh { vertices, triangles: vec![[0, 1, 2]] }
+    }
+
+    #[test]
+    fn the_origin_may_be_in_the_middle() {
+        let printer = PrinterOptions { origin: crate::gcode::Origin::Center, ..PrinterOptions::default() };
+        let placed = place_on_bed(&[&block(20.0, 10.0, 5.0)], &printer).unwrap();
+        assert_eq!(placed.mesh.vertices, [Vec3::new(-10.0, -5.0, 0.0), Vec3::new(10.0, 5.0, 5.0)]);
     }
 }

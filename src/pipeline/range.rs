@@ -4,8 +4,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::report::{Timing, Warning};
-use super::{Clock, vase};
-use crate::gcode::{LayerInput, LayerSummary, Spiral, layer_gcode};
+use super::{Clock, check, vase};
+use crate::gcode::{GcodeOptions, LabelledObject, LayerInput, LayerSummary, Spiral, layer_gcode};
 use crate::mesh::Mesh;
 use crate::polygon::{DVec2, Join, PolygonSet};
 use crate::region::bridge::{Bridge, bridges};
@@ -14,6 +14,7 @@ use crate::region::shell::{Division, Exposure, Shells, divide, exposure, hair_of
 use crate::region::{Bead, Path, Region, Role, Width};
 use crate::settings::Settings;
 use crate::slice::{Axis, LayerSpec, Section, slice_triangles};
+use crate::support::SupportMethod;
 use crate::toolpath::infill::lines::{Hatch, hatch_linked};
 use crate::toolpath::infill::{InfillLayer, InfillOptions, fill_solid, fill_sparse, fill_surface};
 use crate::toolpath::ironing::iron;
@@ -52,6 +53,8 @@ pub struct RangePlan {
     pub laid: Vec<Vec<Path>>,
     /// For each layer to print what another tool lays after the part.
     pub after: Vec<Vec<Path>>,
+    /// Objects whose moves are marked.
+    pub objects: Vec<LabelledObject>,
 }
 
 /// A range made ready for an engine that does not hold the job.
@@ -111,8 +114,10 @@ pub(super) fn slice_range(
     let sliced = clock();
     let exposures = expose(plan, &areas);
     let exposed = clock();
+    result.meta.warnings.extend(floating_islands(plan, &areas, &exposures));
     result.meta.timing.slice = sliced - started;
     result.meta.timing.regions = exposed - sliced;
+    let options = GcodeOptions { objects: plan.objects.clone(), ..plan.settings.gcode_options() };
     let printed = areas.iter().enumerate().take(plan.last).skip(plan.first);
     for (place, area) in printed {
         let turn = vase::turn_of(plan, place, &areas);
@@ -132,7 +137,7 @@ pub(super) fn slice_range(
             paths: &paths.paths,
             ways: &paths.ways,
         };
-        let written = layer_gcode(&input, &plan.settings.gcode_options());
+        let written = layer_gcode(&input, &options);
         result.texts.push(written.text);
         result.meta.summaries.push(written.summary);
         result.meta.timing.gcode += clock() - before;
@@ -154,6 +159,26 @@ fn gap_warnings(plan: &RangePlan, sections: &[Section]) -> Vec<Warning> {
         Some(Warning::on_layer("gap_closed", message, spec.index, gap.at))
     };
     printed.filter_map(warn).collect()
+}
+
+/// Islands that nothing holds. Where there are supports these tell what they leave uncovered.
+fn floating_islands(plan: &RangePlan, areas: &[PolygonSet], exposures: &[Exposure]) -> Vec<Warning> {
+    // Without skins at the bottom a range does not know the layer below it.
+    let is_known = SkinNeighbours::of(&plan.settings).below > 0;
+    if plan.settings.support.method != SupportMethod::None || !is_known {
+        return Vec::new();
+    }
+    let on_layer = |place: usize| {
+        let below = place.checked_sub(1).filter(|&b| plan.specs[b].slice_z > 0.0);
+        match below {
+            // A layer with nothing bare below has no such island.
+            Some(below) if !exposures[place].bottom.is_empty() => {
+                check::floating(&areas[place], &areas[below], plan.specs[place].index)
+            }
+            _ => Vec::new(),
+        }
+    };
+    (plan.first..plan.last).flat_map(on_layer).collect()
 }
 
 /// Skins need not follow the outline closer than this, mm: a tenth of a bead.

@@ -23,17 +23,26 @@ pub struct Warning {
     pub layer: Option<u32>,
     /// Place in bed coordinates, mm.
     pub at: Option<[f64; 2]>,
+    /// Settings that would mend it, as `path=value` with the value in JSON; empty if there are none.
+    pub fix: Vec<String>,
 }
 
 impl Warning {
     /// A remark on the whole job.
     pub fn on_job(code: &str, message: String) -> Warning {
-        Warning { code: code.to_owned(), message, layer: None, at: None }
+        Warning { code: code.to_owned(), message, layer: None, at: None, fix: Vec::new() }
     }
 
     /// A remark on a place of a layer.
     pub fn on_layer(code: &str, message: String, layer: u32, at: DVec2) -> Warning {
-        Warning { code: code.to_owned(), message, layer: Some(layer), at: Some([at.x, at.y]) }
+        let at = Some([at.x, at.y]);
+        Warning { code: code.to_owned(), message, layer: Some(layer), at, fix: Vec::new() }
+    }
+
+    /// The remark with one more setting that would mend it.
+    pub(super) fn fixed_by(mut self, path: &str, value: impl std::fmt::Display) -> Warning {
+        self.fix.push(format!("{path}={value}"));
+        self
     }
 }
 

@@ -93,23 +93,27 @@ pub(super) fn order_tools(
 /// The lower left corner of a free square for the tower, as near to the part as there is one.
 fn free_place(laid: &[Vec<Path>], mesh: &Mesh, settings: &Settings) -> Result<DVec2, ToolError> {
     let tower = &settings.prime_tower;
-    let bed = DVec2::from_array(settings.printer.bed_size);
+    let printer = &settings.printer;
+    let bed = printer.bed();
     let room = tower.size + 2.0 * tower.brim_width;
     let mut cells = Cells::new(bed);
-    cells.take(Bounds { min: DVec2::ZERO, max: dvec2(bed.x, FRONT_STRIP) });
+    cells.take(Bounds { min: bed.min, max: dvec2(bed.max.x, bed.min.y + FRONT_STRIP) });
+    cells.take_where(|p| !printer.is_on_bed(p));
     let flat = |v: glam::Vec3| dvec2(v.x.into(), v.y.into());
     for t in 0..mesh.triangles.len() {
         let corners = mesh.corners(t).map(flat);
         cells.take_all(&corners);
     }
     laid.iter().flatten().for_each(|path| cells.take_path(path));
-    let centre = mesh.bounds().map_or(bed / 2.0, |b| (flat(b.min) + flat(b.max)) / 2.0);
+    let centre = mesh.bounds().map_or((bed.min + bed.max) / 2.0, |b| (flat(b.min) + flat(b.max)) / 2.0);
     let corner = cells.nearest_free(room, centre).ok_or(ToolError::NoRoomForTower { size: room })?;
     Ok(corner + tower.brim_width)
 }
 
 /// The bed in cells, and how many things take each.
 struct Cells {
+    /// Where the first cell begins.
+    origin: DVec2,
     columns: usize,
     rows: usize,
     /// Changes of the count from cell to cell; one row and column more than cells.
@@ -117,19 +121,32 @@ struct Cells {
 }
 
 impl Cells {
-    fn new(bed: DVec2) -> Cells {
-        let [columns, rows] = (bed / CELL_MM).to_array().map(|n| n.floor() as usize);
-        Cells { columns, rows, changes: vec![0; (columns + 1) * (rows + 1)] }
+    fn new(bed: Bounds) -> Cells {
+        let [columns, rows] = ((bed.max - bed.min) / CELL_MM).to_array().map(|n| n.floor() as usize);
+        Cells { origin: bed.min, columns, rows, changes: vec![0; (columns + 1) * (rows + 1)] }
     }
 
     /// Takes a box and the free space around it.
     fn take(&mut self, taken: Bounds) {
         let taken = taken.grown(AROUND_TOWER);
+        let taken = Bounds { min: taken.min - self.origin, max: taken.max - self.origin };
         let cell = |v: f64, count: usize| (v / CELL_MM).clamp(0.0, count as f64);
         let [x0, y0] = [cell(taken.min.x, self.columns).floor(), cell(taken.min.y, self.rows).floor()];
         let [x1, y1] = [cell(taken.max.x, self.columns).ceil(), cell(taken.max.y, self.rows).ceil()];
         for (x, y, change) in [(x0, y0, 1), (x1, y0, -1), (x0, y1, -1), (x1, y1, 1)] {
             self.changes[y as usize * (self.columns + 1) + x as usize] += change;
+        }
+    }
+
+    /// Takes the cells that have a corner where nothing may stand.
+    fn take_where(&mut self, closed: impl Fn(DVec2) -> bool) {
+        for (x, y) in (0..self.rows).flat_map(|y| (0..self.columns).map(move |x| (x, y))) {
+            let corner =
+                |dx: usize, dy: usize| self.origin + dvec2((x + dx) as f64, (y + dy) as f64) * CELL_MM;
+            let corners = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+            if corners.into_iter().any(&closed) {
+                self.take_all(&corners);
+            }
         }
     }
 
@@ -173,7 +190,7 @@ impl Cells {
         };
         let xs = 0..(self.columns + 1).saturating_sub(side);
         let places = (0..(self.rows + 1).saturating_sub(side)).flat_map(|y| xs.clone().map(move |x| (x, y)));
-        let corner = |(x, y): (usize, usize)| dvec2(x as f64, y as f64) * CELL_MM;
+        let corner = |(x, y): (usize, usize)| self.origin + dvec2(x as f64, y as f64) * CELL_MM;
         let distance = |place: &(usize, usize)| (corner(*place) + room / 2.0).distance_squared(centre);
         places.filter(is_free).min_by(|a, b| distance(a).total_cmp(&distance(b))).map(corner)
     }
@@ -185,7 +202,7 @@ mod tests {
 
     #[test]
     fn the_nearest_free_square_keeps_its_distance_and_stays_on_the_bed() {
-        let mut cells = Cells::new(dvec2(100.0, 60.0));
+        let mut cells = Cells::new(Bounds { min: DVec2::ZERO, max: dvec2(100.0, 60.0) });
         cells.take(Bounds { min: dvec2(40.0, 0.0), max: dvec2(60.0, 60.0) });
         let corner = cells.nearest_free(20.0, dvec2(52.0, 30.0)).expect("there is room");
         assert_eq!(corner, dvec2(65.0, 20.0));

@@ -7,8 +7,6 @@ use super::canvas::{self, View};
 use super::convert::{Thrown, internal_error, settings_from};
 use crate::adhesion::TeethDrawing;
 use crate::gcode::read;
-use crate::polygon::measure::Bounds;
-use crate::polygon::{DVec2, dvec2};
 use crate::view::base_layer::teeth_items;
 use crate::view::{self, ModelPicture};
 
@@ -37,9 +35,7 @@ impl Scene {
         let settings = settings_from(settings)?;
         let mut file = read::read(gcode, settings.filament.diameter);
         let layer = file.layers.pop().unwrap_or(file.prelude);
-        let [width, depth] = settings.printer.bed_size;
-        let bed = Bounds { min: DVec2::ZERO, max: dvec2(width, depth) };
-        let mut scene = view::Scene::of_layer(&layer, bed, None);
+        let mut scene = view::Scene::of_layer(&layer, settings.printer.bed(), None);
         if !marks.is_empty() {
             let teeth: TeethDrawing = postcard::from_bytes(marks).map_err(internal_error)?;
             scene.items.extend(teeth_items(&teeth));

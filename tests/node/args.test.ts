@@ -8,7 +8,7 @@ test('slice with everything', () => {
     kind: 'slice',
     models: ['a.stl', 'b.stl'],
     out: 'out.gcode',
-    settings: { files: ['f.json'], sets: ['walls.count=2', 'x.y=z'] },
+    settings: { profiles: {}, files: ['f.json'], sets: ['walls.count=2', 'x.y=z'] },
     report: 'r.json',
     workers: 3,
   });
@@ -51,4 +51,14 @@ test.each([
   const parse = (): unknown => parseCommand(words.split(' ').filter((it) => it !== ''));
   expect(parse).toThrow(UsageError);
   expect(parse).toThrow(new RegExp(message.replaceAll(/[.*+?^${}()|[\]\\]/g, '\\$&'), 'i'));
+});
+
+test('profiles are named by id', () => {
+  expect(parseCommand('slice a.stl --printer ender3 --material petg'.split(' '))).toMatchObject({
+    settings: { profiles: { printer: 'ender3', material: 'petg' } },
+  });
+  expect(() => parseCommand('slice a.stl --printer ender99'.split(' '))).toThrow(
+    /^--printer ender99: there are .*ender3/,
+  );
+  expect(parseCommand(['profiles'])).toEqual({ kind: 'profiles' });
 });

@@ -2,6 +2,7 @@
 // small. A visitor who allows no storage begins anew each time.
 import type { ModelSource } from './messages.ts';
 import type { Part } from './parts.ts';
+import { isOfProfile } from './profiles/choice.ts';
 import { type Changes, fault } from './settings/changes.ts';
 import type { Field } from './settings/fields.ts';
 
@@ -30,7 +31,8 @@ export function loadChanges(fields: readonly Field[]): Changes {
 function known(changes: Changes, fields: readonly Field[]): Changes {
   const entries = Object.entries(changes).filter(([path, value]) => {
     const field = fields.find((it) => it.path === path);
-    return field !== undefined && typeof value === typeof field.default && fault(field, value) === undefined;
+    if (field === undefined) return isOfProfile(path, value);
+    return typeof value === typeof field.default && fault(field, value) === undefined;
   });
   return Object.fromEntries(entries);
 }

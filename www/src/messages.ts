@@ -66,6 +66,8 @@ export type Edit =
 export type LeadRequest =
   /** Reads models; the first `keep` are open already. */
   | { readonly kind: 'open'; readonly sources: readonly ModelSource[]; readonly keep: number }
+  /** Takes a file of another format apart into one STL for each part. */
+  | { readonly kind: 'unpack'; readonly source: ModelSource }
   | { readonly kind: 'shape'; readonly model: number }
   /** Without `edit` the placement stays as it is. */
   | { readonly kind: 'edit'; readonly model: number; readonly matrix: readonly number[]; readonly edit?: Edit }
@@ -113,6 +115,7 @@ export type LeadRequest =
 
 export type LeadReply =
   | { readonly kind: 'open'; readonly inspections: readonly string[]; readonly parse_ms: number }
+  | { readonly kind: 'unpack'; readonly sources: readonly ModelSource[] }
   | ({ readonly kind: 'shape' } & Shape)
   /** The matrix, 16 numbers, and the box around the part: lowest x y z, highest x y z, mm. */
   | { readonly kind: 'edit'; readonly stand: Float64Array }

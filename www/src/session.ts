@@ -1,4 +1,6 @@
 // The flow of work, as plain functions over the state: open, place, slice, cancel, show, download.
+import { type Imported, importProfile } from './files/files.ts';
+import { loadFiles } from './files/load.ts';
 import type { OrientationReport, Report } from './generated/report.ts';
 import { planOf, redone, undone } from './history.ts';
 import { t } from './i18n/text.ts';
@@ -6,7 +8,10 @@ import type { Kept } from './keep.ts';
 import { placeIn } from './lesson/steps.ts';
 import type { Edit, ModelSource } from './messages.ts';
 import { asStanding, atFreeSpot, freeId, movedTo, type Part, standing, UNMOVED } from './parts.ts';
-import { asChanges, asSettings } from './settings/changes.ts';
+import { settingsFiles } from './profiles/catalog.ts';
+import { parseSaved, type SavedSettings } from './profiles/layers.ts';
+import { asChanges, asSettings, type Changes, withChange } from './settings/changes.ts';
+import type { Value } from './settings/fields.ts';
 import { allFields, roomOf } from './settings/room.ts';
 import { EngineError, isCancel } from './slicer/errors.ts';
 import { partsOf } from './slicer/gcode.ts';
@@ -87,7 +92,9 @@ export class Session {
       return model.kind === 'reading' && model.source === source;
     };
     try {
-      const models = openModels(sources, await this.#pool.open(sources));
+      const all = await this.#pool.unpack(sources);
+      if (!isCurrent()) return;
+      const models = openModels(all, await this.#pool.open(all));
       const parts = kept?.parts ?? (await this.#arranged(await this.#standing(models.map((_, model) => model))));
       const [first] = models;
       if (!isCurrent() || first === undefined) return;
@@ -107,10 +114,11 @@ export class Session {
     if (this.#store.state.model.kind !== 'open') return this.open(sources);
     await this.#edit(async ({ model, parts, arranged, changes }) => {
       if (model.kind !== 'open') return {};
-      const opened = await this.#pool.add(sources);
-      const models = openModels([...model.models.map((it) => it.source), ...sources], opened);
+      const more = await this.#pool.unpack(sources);
+      const opened = await this.#pool.add(more);
+      const models = openModels([...model.models.map((it) => it.source), ...more], opened);
       const added = await this.#standing(
-        sources.map((_, k) => model.models.length + k),
+        more.map((_, k) => model.models.length + k),
         freeId(parts),
       );
       const all = arranged ? await this.#arranged([...parts, ...added]) : withAdded(parts, added, roomOf(changes));
@@ -199,11 +207,20 @@ export class Session {
     }
   }
 
-  /** Takes settings from a file instead of those of the form; the engine says what is wrong with them. */
-  async importSettings(file: Blob): Promise<void> {
-    await this.#edit(async () => {
-      const resolved = await this.#pool.settings([await file.text()], []);
-      return { changes: asChanges(JSON.parse(resolved), allFields) };
+  /**
+   * Takes settings from a file instead of those of the form; the engine says what is wrong with them. A profile of
+   * another slicer keeps the chosen printer and what else it does not speak of.
+   */
+  async importSettings(file: File): Promise<void> {
+    await this.#edit(async ({ changes }) => {
+      const content = new Uint8Array(await file.arrayBuffer());
+      const own = ownSettings(content);
+      const found = own === undefined ? await importProfile(content, loadFiles) : undefined;
+      const below = own === undefined ? [asSettings(changes)] : settingsFiles(own.profiles);
+      const above = JSON.stringify(own?.settings ?? found?.settings ?? {});
+      const resolved = await this.#pool.settings([...below, above], []);
+      const settingsNotes = found === undefined ? [] : notesOf(found, file.name);
+      return { changes: asChanges(JSON.parse(resolved), allFields), settingsNotes };
     });
   }
 
@@ -263,6 +280,17 @@ export class Session {
     const { result } = this.#store.state;
     if (result === undefined) return;
     saveFile(new Blob(partsOf(result.gcode), { type: 'text/x.gcode' }), result.gcode.joined.fileName);
+  }
+
+  /** Takes over the settings that a remark proposes, as `path=value` with the value in JSON, and slices again. */
+  async fix(settings: readonly string[]): Promise<void> {
+    const mended = (changes: Changes, it: string): Changes => {
+      const at = it.indexOf('=');
+      const field = allFields.find(({ path }) => path === it.slice(0, at));
+      return field === undefined ? changes : withChange(changes, field, JSON.parse(it.slice(at + 1)) as Value);
+    };
+    this.#store.update({ changes: settings.reduce(mended, this.#store.state.changes) });
+    await this.slice();
   }
 
   showLayer(layer: number): void {
@@ -334,6 +362,30 @@ export class Session {
     const stands = parts.map(({ model, matrix }) => this.#pool.edit(model, matrix, { kind: 'drop' }));
     return (await Promise.all(stands)).map((stand, k) => ({ ...standing(0, 0, stand), ...named(parts[k]) }));
   }
+}
+
+/** Settings in our own form; undefined when they are another program's. */
+function ownSettings(content: Uint8Array): SavedSettings | undefined {
+  try {
+    const found = parseSaved(new TextDecoder('utf-8', { fatal: true }).decode(content));
+    const groups = Object.values(found.settings);
+    // Other slicers' JSON holds words and lists, ours holds groups.
+    return groups.every((it) => typeof it === 'object' && it !== null && !Array.isArray(it)) ? found : undefined;
+  } catch (error) {
+    // What is not JSON is perhaps another slicer's; JSON of ours with a fault is told.
+    if (error instanceof SyntaxError || error instanceof TypeError) return undefined;
+    throw error;
+  }
+}
+
+/** What became of another slicer's profile. */
+function notesOf({ mapped, changed, unknown }: Imported, name: string): readonly string[] {
+  const taken = mapped.length + changed.filter((it) => it.path !== undefined).length;
+  return [
+    t.profiles.imported(name, taken),
+    ...changed.map(({ key, why }) => `${key}: ${why ?? ''}`),
+    ...(unknown.length === 0 ? [] : [t.profiles.unknown(unknown.map(({ key }) => key).join(', '))]),
+  ];
 }
 
 export function problemOf(error: unknown): Problem {

@@ -32,6 +32,8 @@ export interface Remark {
   readonly layer?: number | null;
   /** Where on the bed, mm. */
   readonly at?: readonly number[] | null;
+  /** Settings that would mend it, as `path=value` with the value in JSON. */
+  readonly fix?: readonly string[];
 }
 
 /** An open model. */
@@ -74,6 +76,8 @@ export interface State {
   readonly job: JobState;
   readonly result: Result | undefined;
   readonly changes: Changes;
+  /** What an import of settings could not take over. */
+  readonly settingsNotes: readonly string[];
   readonly parts: readonly Part[];
   /** The parts stand as the engine arranges them; nobody has moved one. */
   readonly arranged: boolean;
@@ -113,6 +117,7 @@ export const initial: State = {
   job: { kind: 'idle' },
   result: undefined,
   changes: {},
+  settingsNotes: [],
   parts: [],
   arranged: true,
   selected: undefined,

@@ -27,8 +27,8 @@ export const de: Words = {
     heading: 'Modell',
     open: 'Modell öffnen',
     add: 'Modell dazu',
-    hint: 'oder STL-Dateien irgendwo ablegen',
-    drop: 'Loslassen, um die STL-Dateien zu öffnen',
+    hint: 'oder STL-, 3MF- oder OBJ-Dateien irgendwo ablegen',
+    drop: 'Loslassen, um die Dateien zu öffnen',
     reading: (name) => `${name} wird gelesen …`,
     triangles: (count) => `${format.number(count, 0)} ${count === 1 ? 'Dreieck' : 'Dreiecke'}`,
     opened: (name) => `${name} ist geöffnet.`,
@@ -143,6 +143,7 @@ export const de: Words = {
     share: 'Zeit',
     warnings: 'Hinweise',
     showLayer: (layer) => `Schicht ${layer} zeigen`,
+    fix: (setting: string) => `${setting} setzen und neu slicen`,
   },
   settings: {
     heading: 'Einstellungen',
@@ -163,6 +164,20 @@ export const de: Words = {
   },
   printing: print,
   panels,
+  profiles: {
+    heading: 'Drucker und Material',
+    printer: 'Drucker',
+    material: 'Material',
+    quality: 'Qualität',
+    own: 'Eigene Einstellungen',
+    imported: (name: string, count: number) => `${name}: ${count} Einstellungen übernommen.`,
+    unknown: (names: string) => `Hier unbekannt: ${names}`,
+    usb: {
+      ok: 'Druckt über USB.',
+      limited: 'USB mit Vorbehalt.',
+      none: 'Druckt nicht über USB: die Datei hinbringen.',
+    },
+  },
   problem: {
     ModelError: {
       title: 'Dieses Modell ist nicht brauchbar',

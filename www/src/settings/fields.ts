@@ -96,8 +96,8 @@ function fieldOf(schema: Schema, path: string, value: unknown): Field | undefine
         default: Number(value ?? 0),
       };
     case 'array':
-      // Lists of groups, such as events at layers, are edited in a settings file.
-      if (schema.items?.$ref !== undefined) return undefined;
+      // Lists of groups and of lists, such as events at layers and forbidden zones, are edited in a settings file.
+      if (schema.items?.$ref !== undefined || schema.items?.type === 'array') return undefined;
       return { ...common, ...limits(schema), kind: 'numbers', default: Array.isArray(value) ? value.map(Number) : [] };
     case 'boolean':
       return { ...common, kind: 'switch', default: value === true };

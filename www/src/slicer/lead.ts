@@ -1,4 +1,5 @@
 // The lead lane's side of the conversation: it holds the models and the job.
+import { type LoadFiles, modelsIn, stem } from '../files/files.ts';
 import type { Chunk, Job, Model, Scene } from '../generated/engine/foothold.js';
 import type {
   Bounds,
@@ -24,19 +25,24 @@ const READ_BYTES = 4 << 20;
 
 export class Lead {
   readonly #engine: Engine;
+  readonly #loadFiles: LoadFiles;
   #models: Model[] = [];
   #names: string[] = [];
   #job: Job | undefined;
   #scene: Scene | undefined;
 
-  constructor(engine: Engine) {
+  /** `loadFiles` is called when a model is no STL. */
+  constructor(engine: Engine, loadFiles: LoadFiles) {
     this.#engine = engine;
+    this.#loadFiles = loadFiles;
   }
 
   async handle(request: LeadRequest): Promise<LeadReply> {
     switch (request.kind) {
       case 'open':
         return { kind: 'open', ...(await this.#open(request.sources, request.keep)) };
+      case 'unpack':
+        return { kind: 'unpack', sources: await modelsIn(request.source, this.#loadFiles) };
       case 'shape':
         return { kind: 'shape', ...shapeOf(this.#model(request.model)) };
       case 'edit':
@@ -267,11 +273,6 @@ async function read(file: ModelSource['file'], from: number): Promise<Uint8Array
   }
 }
 
-/** A model's name as its G-code file begins: no folders, no ending. */
-function stem(name: string): string {
-  const base = name.split(/[/]/).at(-1) ?? name;
-  return base.replace(/\.stl$/i, '') || 'model';
-}
 
 /** The chunk's text, moved out of the engine. */
 export function taken(chunk: Chunk): SlicedRange {

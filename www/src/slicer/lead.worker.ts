@@ -1,4 +1,5 @@
 // The page's lead lane.
+import { loadFiles } from '../files/load.ts';
 import * as engine from '../generated/engine/foothold.js';
 import type { LeadReply, LeadRequest, ToLane } from '../messages.ts';
 import { watchPanics } from './errors.ts';
@@ -12,7 +13,7 @@ watchPanics(console.warn);
 const receive = serve<LeadRequest, LeadReply>(
   (module) => {
     engine.initSync({ module });
-    const lead = new Lead(engine);
+    const lead = new Lead(engine, loadFiles);
     return (request) => lead.handle(request);
   },
   (message, transfer) => self.postMessage(message, transfer),

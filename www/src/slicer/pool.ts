@@ -1,6 +1,7 @@
 // Runs a job over several lanes; used by the page and by the command line. The lead lane holds the models and
 // the job; helper lanes slice the ranges of layers that the lead prepares for them. What comes out does not
 // depend on how many lanes there are or on which of them sliced what.
+import { isForeign } from '../files/files.ts';
 import type {
   Bounds,
   CameraNumbers,
@@ -97,6 +98,15 @@ export class Pool {
     this.#sources = all;
     this.#loaded = Promise.resolve(opened);
     return opened;
+  }
+
+  /** The models in files of any format, as sources to be opened: STL as they are, others part by part. */
+  async unpack(sources: readonly ModelSource[]): Promise<readonly ModelSource[]> {
+    const models = async (source: ModelSource): Promise<readonly ModelSource[]> => {
+      if (!(await isForeign(source))) return [source];
+      return (await this.#guard(this.#someLead().call({ kind: 'unpack', source }))).sources;
+    };
+    return (await Promise.all(sources.map(models))).flat();
   }
 
   /** The triangles of an open model. */

@@ -47,7 +47,7 @@ export class DropZone extends Part {
         }
         <span class="hint">${t.model.hint}</span>
       </div>
-      <input type="file" multiple accept=".stl,model/stl" hidden @change=${this.#chosen} />
+      <input type="file" multiple accept=".stl,.3mf,.obj,model/stl,model/3mf,model/obj" hidden @change=${this.#chosen} />
       ${this.over ? html`<div class="drop-cover" aria-hidden="true"><p>${t.model.drop}</p></div>` : nothing}
     `;
   }

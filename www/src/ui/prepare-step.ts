@@ -3,6 +3,7 @@ import { html, nothing, type TemplateResult } from 'lit';
 import settingsSchema from '../../../schema/settings.schema.json';
 import { t } from '../i18n/text.ts';
 import type { Edit, ModelSource } from '../messages.ts';
+import { chosenIn, withProfile } from '../profiles/choice.ts';
 import { withChange } from '../settings/changes.ts';
 import type { Schema } from '../settings/fields.ts';
 import { roomOf } from '../settings/room.ts';
@@ -13,6 +14,8 @@ import './orientation-panel.ts';
 import './part-list.ts';
 import './plane-panel.ts';
 import { problemBox } from './problem-box.ts';
+import type { ProfileChange } from './profile-chooser.ts';
+import './profile-chooser.ts';
 import './settings-form.ts';
 import './zone-panel.ts';
 import type { SettingChange } from './settings-form.ts';
@@ -22,7 +25,7 @@ export class PrepareStep extends StepPart {
   readonly #canLay = canDrawSpace();
 
   protected override render(): TemplateResult {
-    const { model, engine, changes } = this.state;
+    const { model, engine, changes, settingsNotes } = this.state;
     return html`
       <section class="card" aria-labelledby="model-heading">
         <div class="row spread">
@@ -37,6 +40,12 @@ export class PrepareStep extends StepPart {
         ></drop-zone>
         ${model.kind === 'open' ? this.#parts(model.models) : nothing}
       </section>
+      <profile-chooser
+        .chosen=${chosenIn(changes)}
+        .notes=${settingsNotes}
+        @profile-change=${({ detail: { kind, id } }: CustomEvent<ProfileChange>) =>
+          this.store?.update({ changes: withProfile(changes, kind, id), settingsNotes: [] })}
+      ></profile-chooser>
       <base-layer-panel .state=${this.state} .store=${this.store} .session=${this.session}></base-layer-panel>
       <orientation-panel .state=${this.state} .store=${this.store} .session=${this.session}></orientation-panel>
       <plane-panel .state=${this.state} .store=${this.store} .session=${this.session}></plane-panel>

@@ -21,6 +21,7 @@ export class PreviewStep extends StepPart {
         .filtering=${!flat && colourBy === 'role'}
         .colours=${flat ? nothing : this.#colours()}
         @layer-change=${({ detail }: CustomEvent<number>) => this.session?.showLayer(detail)}
+        @fix=${({ detail }: CustomEvent<readonly string[]>) => void this.session?.fix(detail)}
         @roles-change=${({ detail }: CustomEvent<ReadonlySet<string>>) => this.store?.update({ hidden: detail })}
       >
       </result-figures>

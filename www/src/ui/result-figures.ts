@@ -158,7 +158,7 @@ export class ResultFigures extends Part {
     if (remarks.length === 0) return nothing;
     return html`<h3>${t.figures.warnings}</h3>
       <ul class="remarks">
-        ${remarks.map((remark) => html`<li>${remark.message} ${this.#place(remark)}</li>`)}
+        ${remarks.map((remark) => html`<li>${remark.message} ${this.#place(remark)} ${this.#fix(remark)}</li>`)}
       </ul>`;
   }
 
@@ -166,6 +166,14 @@ export class ResultFigures extends Part {
     if (layer === undefined || layer === null) return nothing;
     return html`<button type="button" class="link" @click=${() => this.tell('layer-change', layer)}>
       ${t.figures.showLayer(layer + 1)}
+    </button>`;
+  }
+
+  /** What would mend it, at one press. */
+  #fix({ fix = [] }: Remark): TemplateResult | typeof nothing {
+    if (fix.length === 0) return nothing;
+    return html`<button type="button" class="link" @click=${() => this.tell<readonly string[]>('fix', fix)}>
+      ${t.figures.fix(fix.join(', '))}
     </button>`;
   }
 }

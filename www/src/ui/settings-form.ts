@@ -94,7 +94,7 @@ export class SettingsForm extends Part {
       ${link(t.settings.export, () => this.tell('settings-export'))}
       <input
         type="file"
-        accept=".json,application/json"
+        accept=".json,.ini,.gcode,.cfg,.curaprofile,application/json"
         hidden
         @change=${(event: Event) => {
           const input = event.target as HTMLInputElement;

@@ -1,0 +1,266 @@
+//! Cura: a `.curaprofile` is an archive of .ini files, one for the machine and one for each extruder.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+
+use super::code::Placeholders;
+use super::table::{Row, Turn, number, switch, take};
+use super::{Collector, Imported};
+use crate::archive::Archive;
+use crate::error::FileError;
+use crate::limits::PROFILE_BYTES;
+
+const NAMES: Placeholders = &[
+    ("material_print_temperature_layer_0", "first_layer_nozzle_temp"),
+    ("material_print_temperature", "nozzle_temp"),
+    ("material_bed_temperature_layer_0", "first_layer_bed_temp"),
+    ("material_bed_temperature", "bed_temp"),
+    ("machine_width", "bed_size_x"),
+    ("machine_depth", "bed_size_y"),
+    ("machine_height", "printer_height"),
+    ("machine_nozzle_size", "nozzle_diameter"),
+    ("material_type", "filament_type"),
+    ("layer_height_0", "first_layer_height"),
+];
+
+const ROWS: &[Row] = &[
+    ("layer_height", "layers.height", Turn::Number),
+    ("layer_height_0", "layers.first_height", Turn::Number),
+    ("wall_line_count", "walls.count", Turn::Number),
+    ("line_width", "walls.width", Turn::Number),
+    ("wall_line_width", "walls.width", Turn::Number),
+    ("top_layers", "skin.top_layers", Turn::Number),
+    ("bottom_layers", "skin.bottom_layers", Turn::Number),
+    ("infill_sparse_density", "infill.density", Turn::Percent),
+    (
+        "infill_pattern",
+        "infill.pattern",
+        Turn::Word(&[
+            ("grid", "grid"),
+            ("lines", "lines"),
+            ("zigzag", "lines"),
+            ("triangles", "triangles"),
+            ("trihexagon", "triangles"),
+            ("gyroid", "gyroid"),
+            ("honeycomb", "honeycomb"),
+            ("concentric", "concentric"),
+        ]),
+    ),
+    (
+        "z_seam_type",
+        "seam.position",
+        Turn::Word(&[
+            ("sharpest_corner", "aligned"),
+            ("back", "rear"),
+            ("shortest", "nearest"),
+            ("random", "random"),
+        ]),
+    ),
+    ("material_print_temperature", "filament.nozzle_temp", Turn::Number),
+    ("material_print_temperature_layer_0", "filament.first_layer_nozzle_temp", Turn::Number),
+    ("material_bed_temperature", "filament.bed_temp", Turn::Number),
+    ("material_bed_temperature_layer_0", "filament.first_layer_bed_temp", Turn::Number),
+    ("material_diameter", "filament.diameter", Turn::Number),
+    ("cool_fan_speed", "filament.fan_speed", Turn::Percent),
+    ("bridge_fan_speed", "filament.bridge_fan_speed", Turn::Percent),
+    ("speed_wall_0", "speed.outer_wall", Turn::Number),
+    ("speed_wall_x", "speed.inner_wall", Turn::Number),
+    ("speed_infill", "speed.infill", Turn::Number),
+    ("speed_topbottom", "speed.solid_infill", Turn::Number),
+    ("speed_roofing", "speed.top_skin", Turn::Number),
+    ("speed_support", "speed.support", Turn::Number),
+    ("speed_support_interface", "speed.support_interface", Turn::Number),
+    ("speed_travel", "speed.travel", Turn::Number),
+    ("speed_layer_0", "first_layer.speed", Turn::Number),
+    ("speed_ironing", "speed.ironing", Turn::Number),
+    ("bridge_wall_speed", "speed.bridge", Turn::Number),
+    ("acceleration_print", "printer.acceleration", Turn::Number),
+    ("acceleration_travel", "printer.travel_acceleration", Turn::Number),
+    ("retraction_amount", "retraction.length", Turn::Number),
+    ("retraction_speed", "retraction.speed", Turn::Number),
+    ("retraction_min_travel", "retraction.min_travel", Turn::Number),
+    (
+        "adhesion_type",
+        "adhesion.kind",
+        Turn::Word(&[("skirt", "skirt"), ("brim", "brim"), ("raft", "raft"), ("none", "none")]),
+    ),
+    ("brim_width", "adhesion.brim.width", Turn::Number),
+    ("brim_gap", "adhesion.brim.gap", Turn::Number),
+    ("skirt_line_count", "adhesion.skirt.loops", Turn::Number),
+    ("skirt_gap", "adhesion.skirt.distance", Turn::Number),
+    ("skirt_brim_minimal_length", "adhesion.skirt.min_length", Turn::Number),
+    ("raft_margin", "adhesion.raft.margin", Turn::Number),
+    ("raft_airgap", "adhesion.raft.gap", Turn::Number),
+    ("support_angle", "support.overhang_angle_deg", Turn::Number),
+    ("support_z_distance", "support.gap_z", Turn::Number),
+    ("support_xy_distance", "support.gap_xy", Turn::Number),
+    ("machine_nozzle_size", "printer.nozzle_diameter", Turn::Number),
+    ("machine_height", "printer.height", Turn::Number),
+    ("machine_start_gcode", "printer.start_gcode", Turn::Code(NAMES)),
+    ("machine_end_gcode", "printer.end_gcode", Turn::Code(NAMES)),
+    (
+        "machine_gcode_flavor",
+        "printer.flavor",
+        Turn::Word(&[
+            ("RepRap (Marlin/Sprinter)", "marlin"),
+            ("RepRap (RepRap)", "reprap"),
+            ("Repetier", "repetier"),
+        ]),
+    ),
+];
+
+pub(super) fn import(bytes: &[u8]) -> Result<Imported, FileError> {
+    let mut archive = Archive::open(bytes)?;
+    let mut found = BTreeMap::new();
+    let mut recognised = false;
+    for name in archive.names() {
+        let text = archive.text(&name, PROFILE_BYTES)?;
+        let is_profile = text.contains("[general]") && text.contains("[values]");
+        recognised |= is_profile;
+        if is_profile {
+            // The first of two files that state the same wins: the machine's, then the first extruder's.
+            for (key, value) in values(&text) {
+                found.entry(key).or_insert(value);
+            }
+        }
+    }
+    if !recognised {
+        return Err(FileError::UnknownProfile);
+    }
+    Ok(collected(found))
+}
+
+/// The pairs below `[values]`. Lines that are indented go on with the one before.
+fn values(text: &str) -> Vec<(String, String)> {
+    let below = text.split_once("[values]").map_or("", |(_, rest)| rest);
+    let mut pairs: Vec<(String, String)> = Vec::new();
+    for line in below.lines().take_while(|line| !line.starts_with('[')) {
+        match (line.starts_with([' ', '\t']), pairs.last_mut(), line.split_once('=')) {
+            (true, Some((_, value)), _) => {
+                value.push('\n');
+                value.push_str(line.trim());
+            }
+            (false, _, Some((key, value))) => pairs.push((key.trim().to_owned(), value.trim().to_owned())),
+            _ => {}
+        }
+    }
+    pairs
+}
+
+fn collected(mut found: BTreeMap<String, String>) -> Imported {
+    let mut out = Collector::new();
+    let formulas: Vec<String> =
+        found.iter().filter(|(_, v)| v.starts_with('=')).map(|(k, _)| k.clone()).collect();
+    for key in formulas {
+        let text = found.remove(&key).unwrap_or_default();
+        out.leave(&key, &text, "a formula; left as it is");
+    }
+    if found.contains_key("wall_line_width")
+        && let Some(text) = found.remove("line_width")
+    {
+        out.leave("line_width", &text, "wall_line_width goes before it");
+    }
+    for row in ROWS {
+        if let Some(text) = found.remove(row.0) {
+            take(row, &text, &mut out);
+        }
+    }
+    take_specials(&mut found, &mut out);
+    for (key, text) in found {
+        out.unknown(&key, &text);
+    }
+    out.finish("cura")
+}
+
+fn take_specials(found: &mut BTreeMap<String, String>, out: &mut Collector) {
+    if let Some(text) = found.remove("speed_print") {
+        match number(&text) {
+            Some(speed) => out.change(
+                "speed_print",
+                &text,
+                "speed.infill",
+                Value::from(speed),
+                "speeds of walls and skins stay as they are",
+            ),
+            None => out.leave("speed_print", &text, "not a number; left as it is"),
+        }
+    }
+    if let Some(text) = found.remove("retraction_enable")
+        && switch(&text) == Some(false)
+    {
+        out.map("retraction_enable", &text, "retraction.length", Value::from(0.0));
+    }
+    if let Some(text) = found.remove("retraction_hop") {
+        match found.remove("retraction_hop_enabled").as_deref().and_then(switch) {
+            Some(false) => out.leave("retraction_hop", &text, "switched off in the profile"),
+            _ => take(&("retraction_hop", "retraction.z_hop", Turn::Number), &text, out),
+        }
+    }
+    if let Some(text) = found.remove("xy_offset_layer_0") {
+        match number(&text) {
+            Some(x) if x <= 0.0 => {
+                out.change(
+                    "xy_offset_layer_0",
+                    &text,
+                    "first_layer.elephant_foot",
+                    Value::from(0.0 - x),
+                    "counted inwards here",
+                );
+            }
+            _ => out.leave("xy_offset_layer_0", &text, "the first layer cannot be made wider; left as it is"),
+        }
+    }
+    if let Some(text) = found.remove("cool_fan_full_layer") {
+        match number(&text) {
+            Some(layer) if layer >= 1.0 => {
+                out.change(
+                    "cool_fan_full_layer",
+                    &text,
+                    "filament.fan_first_layers",
+                    Value::from(layer - 1.0),
+                    "without a ramp: no fan below it",
+                );
+            }
+            _ => out.leave("cool_fan_full_layer", &text, "not a layer; left as it is"),
+        }
+    }
+    if let Some(text) = found.remove("support_enable") {
+        match switch(&text) {
+            Some(true) => out.change(
+                "support_enable",
+                &text,
+                "support.method",
+                Value::from("grid"),
+                "supports as a plain grid",
+            ),
+            Some(false) => out.map("support_enable", &text, "support.method", Value::from("none")),
+            None => out.leave("support_enable", &text, "neither on nor off; left as it is"),
+        }
+    }
+    if let Some(text) = found.remove("support_type") {
+        out.map("support_type", &text, "support.everywhere", Value::from(text != "buildplate"));
+    }
+    let size = (
+        found.get("machine_width").and_then(|t| number(t)),
+        found.get("machine_depth").and_then(|t| number(t)),
+    );
+    if let (Some(width), Some(depth)) = size {
+        found.remove("machine_width");
+        found.remove("machine_depth");
+        out.map(
+            "machine_width",
+            &format!("{width} x {depth}"),
+            "printer.bed_size",
+            Value::from(vec![width, depth]),
+        );
+    }
+    if let Some(text) = found.remove("machine_shape") {
+        let shape = if text == "elliptic" { "round" } else { "rectangle" };
+        out.map("machine_shape", &text, "printer.bed_shape", Value::from(shape));
+    }
+    if let Some(text) = found.remove("machine_center_is_zero") {
+        let origin = if switch(&text) == Some(true) { "center" } else { "corner" };
+        out.map("machine_center_is_zero", &text, "printer.origin", Value::from(origin));
+    }
+}

@@ -1,0 +1,267 @@
+//! PrusaSlicer: `name = value` lines, in a file or as comments at the end of G-code.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+
+use super::code::Placeholders;
+use super::table::{Row, Turn, first_of, number, switch, take, take_bed, take_relative};
+use super::{Collector, Imported};
+
+const NAMES: Placeholders = &[
+    ("first_layer_temperature", "first_layer_nozzle_temp"),
+    ("first_layer_bed_temperature", "first_layer_bed_temp"),
+    ("temperature", "nozzle_temp"),
+    ("bed_temperature", "bed_temp"),
+    ("nozzle_diameter", "nozzle_diameter"),
+    ("filament_type", "filament_type"),
+    ("filament_diameter", "filament_diameter"),
+    ("max_print_height", "printer_height"),
+    ("max_layer_z", "print_height"),
+    ("first_layer_height", "first_layer_height"),
+    ("total_layer_count", "layer_count"),
+    ("travel_speed", "travel_speed"),
+];
+
+pub(super) const PATTERNS: Turn = Turn::Word(&[
+    ("grid", "grid"),
+    ("rectilinear", "lines"),
+    ("alignedrectilinear", "lines"),
+    ("aligned-rectilinear", "lines"),
+    ("line", "lines"),
+    ("monotonic", "lines"),
+    ("triangles", "triangles"),
+    ("stars", "triangles"),
+    ("tri-hexagon", "triangles"),
+    ("gyroid", "gyroid"),
+    ("honeycomb", "honeycomb"),
+    ("3dhoneycomb", "honeycomb"),
+    ("concentric", "concentric"),
+]);
+
+pub(super) const SEAMS: Turn = Turn::Word(&[
+    ("aligned", "aligned"),
+    ("rear", "rear"),
+    ("back", "rear"),
+    ("nearest", "nearest"),
+    ("random", "random"),
+]);
+
+pub(super) const FLAVORS: Turn = Turn::Word(&[
+    ("marlin", "marlin"),
+    ("marlin2", "marlin"),
+    ("marlinfirmware", "marlin"),
+    ("klipper", "klipper"),
+    ("reprapfirmware", "reprap"),
+    ("repetier", "repetier"),
+]);
+
+const ROWS: &[Row] = &[
+    ("layer_height", "layers.height", Turn::Number),
+    ("perimeters", "walls.count", Turn::Number),
+    ("top_solid_layers", "skin.top_layers", Turn::Number),
+    ("bottom_solid_layers", "skin.bottom_layers", Turn::Number),
+    ("fill_density", "infill.density", Turn::Percent),
+    ("fill_pattern", "infill.pattern", PATTERNS),
+    ("seam_position", "seam.position", SEAMS),
+    ("elefant_foot_compensation", "first_layer.elephant_foot", Turn::Number),
+    ("nozzle_diameter", "printer.nozzle_diameter", Turn::Number),
+    ("max_print_height", "printer.height", Turn::Number),
+    ("gcode_flavor", "printer.flavor", FLAVORS),
+    ("start_gcode", "printer.start_gcode", Turn::Code(NAMES)),
+    ("end_gcode", "printer.end_gcode", Turn::Code(NAMES)),
+    ("machine_max_feedrate_x", "printer.max_speed_xy", Turn::Number),
+    ("machine_max_feedrate_z", "printer.max_speed_z", Turn::Number),
+    ("machine_max_feedrate_e", "printer.max_speed_e", Turn::Number),
+    ("machine_max_acceleration_extruding", "printer.acceleration", Turn::Number),
+    ("machine_max_acceleration_travel", "printer.travel_acceleration", Turn::Number),
+    ("machine_max_acceleration_retracting", "printer.retract_acceleration", Turn::Number),
+    ("machine_max_acceleration_z", "printer.z_acceleration", Turn::Number),
+    ("filament_type", "filament.material", Turn::Text),
+    ("filament_diameter", "filament.diameter", Turn::Number),
+    ("filament_density", "filament.density", Turn::Number),
+    ("filament_cost", "filament.cost_per_kg", Turn::Number),
+    ("filament_max_volumetric_speed", "filament.max_volumetric_speed", Turn::Number),
+    ("temperature", "filament.nozzle_temp", Turn::Number),
+    ("first_layer_temperature", "filament.first_layer_nozzle_temp", Turn::Number),
+    ("bed_temperature", "filament.bed_temp", Turn::Number),
+    ("first_layer_bed_temperature", "filament.first_layer_bed_temp", Turn::Number),
+    ("max_fan_speed", "filament.fan_speed", Turn::Percent),
+    ("bridge_fan_speed", "filament.bridge_fan_speed", Turn::Percent),
+    ("disable_fan_first_layers", "filament.fan_first_layers", Turn::Number),
+    ("retract_length", "retraction.length", Turn::Number),
+    ("retract_speed", "retraction.speed", Turn::Number),
+    ("retract_lift", "retraction.z_hop", Turn::Number),
+    ("retract_before_travel", "retraction.min_travel", Turn::Number),
+    ("perimeter_speed", "speed.inner_wall", Turn::Number),
+    ("infill_speed", "speed.infill", Turn::Number),
+    ("bridge_speed", "speed.bridge", Turn::Number),
+    ("gap_fill_speed", "speed.gap_fill", Turn::Number),
+    ("support_material_speed", "speed.support", Turn::Number),
+    ("ironing_speed", "speed.ironing", Turn::Number),
+    ("travel_speed", "speed.travel", Turn::Number),
+    ("travel_speed_z", "speed.travel_z", Turn::Number),
+    ("support_material_xy_spacing", "support.gap_xy", Turn::Number),
+    ("support_material_contact_distance", "support.gap_z", Turn::Number),
+    ("support_material_interface_layers", "support.interface_layers", Turn::Number),
+    ("brim_width", "adhesion.brim.width", Turn::Number),
+    ("brim_separation", "adhesion.brim.gap", Turn::Number),
+    ("skirt_distance", "adhesion.skirt.distance", Turn::Number),
+    ("min_skirt_length", "adhesion.skirt.min_length", Turn::Number),
+    ("raft_contact_distance", "adhesion.raft.gap", Turn::Number),
+];
+
+/// (name, path, name of what it may be a share of).
+const RELATIVE: &[(&str, &str, &str)] = &[
+    ("first_layer_height", "layers.first_height", "layer_height"),
+    ("external_perimeter_speed", "speed.outer_wall", "perimeter_speed"),
+    ("solid_infill_speed", "speed.solid_infill", "infill_speed"),
+    ("top_solid_infill_speed", "speed.top_skin", "solid_infill_speed"),
+    ("support_material_interface_speed", "speed.support_interface", "support_material_speed"),
+    ("first_layer_speed", "first_layer.speed", ""),
+    ("perimeter_extrusion_width", "walls.width", "layer_height"),
+    ("first_layer_extrusion_width", "first_layer.line_width", "first_layer_height"),
+    ("support_material_extrusion_width", "support.line_width", "layer_height"),
+];
+
+/// What a file says of itself and nobody prints.
+const ASIDE: &[&str] = &[
+    "inherits",
+    "printer_settings_id",
+    "print_settings_id",
+    "filament_settings_id",
+    "filament_colour",
+    "notes",
+];
+
+/// The pairs of an .ini file, or of the comments at the end of G-code; `None` if it is neither.
+pub(super) fn pairs(text: &str) -> Option<BTreeMap<String, String>> {
+    let block = text.split_once("; prusaslicer_config = begin").map(|(_, b)| b);
+    let block = block.map(|b| b.split("; prusaslicer_config = end").next().unwrap_or(b));
+    let lines = block.unwrap_or(text).lines();
+    let pair = |line: &str| {
+        let line = if block.is_some() { line.strip_prefix(';')? } else { line };
+        let (key, value) = line.split_once('=')?;
+        let key = key.trim();
+        let is_name = !key.is_empty() && key.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
+        is_name.then(|| (key.to_owned(), value.trim().to_owned()))
+    };
+    let found: BTreeMap<String, String> = lines.filter_map(pair).collect();
+    let known = found.keys().filter(|k| ROWS.iter().any(|(key, ..)| key == k)).count();
+    (block.is_some() || known >= 2).then_some(found)
+}
+
+pub(super) fn import(mut found: BTreeMap<String, String>) -> Imported {
+    let mut out = Collector::new();
+    let all = found.clone();
+    let value_of = |key: &str| all.get(key).and_then(|text| number(first_of(text)));
+    for row in ROWS {
+        if let Some(text) = found.remove(row.0) {
+            take(row, &text, &mut out);
+        }
+    }
+    for &(key, path, base) in RELATIVE {
+        if let Some(text) = found.remove(key) {
+            take_relative(key, &text, path, value_of(base), &mut out);
+        }
+    }
+    if let Some(text) = found.remove("bed_shape") {
+        take_bed("bed_shape", &text, &mut out);
+    }
+    if let Some(text) = found.remove("gcode_label_objects") {
+        out.map(
+            "gcode_label_objects",
+            &text,
+            "printer.label_objects",
+            Value::from(!["0", "disabled"].contains(&&*text)),
+        );
+    }
+    take_supports(&mut found, &mut out);
+    take_adhesion(&mut found, &mut out);
+    for (key, text) in found {
+        if !ASIDE.contains(&&*key) {
+            out.unknown(&key, &text);
+        }
+    }
+    out.finish("prusaslicer")
+}
+
+fn take_supports(found: &mut BTreeMap<String, String>, out: &mut Collector) {
+    if let Some(text) = found.remove("support_material") {
+        match switch(&text) {
+            Some(true) => {
+                out.change(
+                    "support_material",
+                    &text,
+                    "support.method",
+                    Value::from("grid"),
+                    "supports as a plain grid",
+                );
+            }
+            Some(false) => out.map("support_material", &text, "support.method", Value::from("none")),
+            None => out.leave("support_material", &text, "neither on nor off; left as it is"),
+        }
+    }
+    if let Some(text) = found.remove("support_material_buildplate_only") {
+        let everywhere = switch(&text) != Some(true);
+        out.map("support_material_buildplate_only", &text, "support.everywhere", Value::from(everywhere));
+    }
+    if let Some(text) = found.remove("support_material_threshold") {
+        match number(first_of(&text)) {
+            // Their angle is measured from the bed, ours from the vertical.
+            Some(angle) if angle > 0.0 => out.change(
+                "support_material_threshold",
+                &text,
+                "support.overhang_angle_deg",
+                Value::from(90.0 - angle),
+                "measured from the vertical here",
+            ),
+            _ => out.leave("support_material_threshold", &text, "chosen by the slicer; left as it is"),
+        }
+    }
+}
+
+/// One kind of base layer here; a raft goes before a brim, a brim before a skirt.
+fn take_adhesion(found: &mut BTreeMap<String, String>, out: &mut Collector) {
+    let mut taken = false;
+    let mut settle = |key: &str, text: &str, kind: &str, out: &mut Collector| {
+        let is_first = !std::mem::replace(&mut taken, true);
+        match is_first {
+            true => out.map(key, text, "adhesion.kind", Value::from(kind)),
+            false => out.leave(key, text, "only one kind of base layer at a time; left out"),
+        }
+        is_first
+    };
+    if let Some(text) = found.remove("raft_layers") {
+        let count = number(first_of(&text)).unwrap_or(0.0);
+        if count > 0.0 && settle("raft_layers", &text, "raft", out) {
+            out.map("raft_layers", &text, "adhesion.raft.layers", Value::from(count));
+        }
+    }
+    if let Some(text) = found.remove("brim_type") {
+        let side = match &*text {
+            "outer_only" | "auto_brim" => Some("outer"),
+            "inner_only" => Some("inner"),
+            "outer_and_inner" => Some("both"),
+            _ => None,
+        };
+        let width = found.get("brim_width").and_then(|t| number(first_of(t)));
+        if let (Some(side), false) = (side, width == Some(0.0))
+            && settle("brim_type", &text, "brim", out)
+        {
+            out.map("brim_type", &text, "adhesion.brim.side", Value::from(side));
+        }
+    }
+    if let Some(text) = found.remove("skirts") {
+        match number(first_of(&text)) {
+            Some(loops) if loops > 0.0 => {
+                if settle("skirts", &text, "skirt", out) {
+                    out.map("skirts", &text, "adhesion.skirt.loops", Value::from(loops));
+                }
+            }
+            _ => {
+                settle("skirts", &text, "none", out);
+            }
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! How single values are turned: one row for each name.
+
+use serde_json::Value;
+
+use super::Collector;
+use super::code::{Placeholders, translated};
+
+/// How a value is turned.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Turn {
+    /// A number stays.
+    Number,
+    /// Percent, with or without its sign, to a share.
+    Percent,
+    /// A word stands for another.
+    Word(&'static [(&'static str, &'static str)]),
+    /// Text stays.
+    Text,
+    /// G-code with placeholders.
+    Code(Placeholders),
+}
+
+/// A name of another slicer, our path, and how the value is turned.
+pub(crate) type Row = (&'static str, &'static str, Turn);
+
+/// Takes over a value by its row. `text` may be a list, of which the first is for the first tool.
+pub(crate) fn take(row: &Row, text: &str, out: &mut Collector) {
+    let &(key, path, turn) = row;
+    match turn {
+        Turn::Text => out.map(key, text, path, Value::from(text)),
+        Turn::Code(placeholders) => match translated(text, placeholders) {
+            Ok(code) => out.map(key, text, path, Value::from(code)),
+            Err(why) => out.leave(key, text, &why),
+        },
+        Turn::Word(words) => {
+            let word = words.iter().find(|(theirs, _)| *theirs == text);
+            match word {
+                Some((_, ours)) => out.map(key, text, path, Value::from(*ours)),
+                None => out.leave(key, text, &format!("{path}: nothing here stands for it; left as it is")),
+            }
+        }
+        Turn::Number | Turn::Percent => number_by_row(row, text, out),
+    }
+}
+
+fn number_by_row(&(key, path, turn): &Row, text: &str, out: &mut Collector) {
+    let first = first_of(text);
+    let is_percent = first.ends_with('%');
+    let value = match number(first.trim_end_matches('%')) {
+        Some(value) => value,
+        None => return out.leave(key, text, "not a number; left as it is"),
+    };
+    let value = match turn {
+        Turn::Percent => Value::from(thousandths(value / 100.0)),
+        _ if is_percent => return out.leave(key, text, "relative to another value; left as it is"),
+        _ => Value::from(value),
+    };
+    match is_one(text) {
+        true => out.map(key, text, path, value),
+        false => out.change(key, text, path, value, "the first of several tools"),
+    }
+}
+
+/// Shares without the dust of binary fractions.
+fn thousandths(share: f64) -> f64 {
+    (share * 1e6).round() / 1e6
+}
+
+/// The first of a list such as `0.4,0.4`.
+pub(crate) fn first_of(text: &str) -> &str {
+    text.split([',', ';']).next().unwrap_or_default().trim()
+}
+
+/// Whether all values of a list are the same.
+fn is_one(text: &str) -> bool {
+    let first = first_of(text);
+    text.split([',', ';']).all(|other| other.trim() == first)
+}
+
+/// A finite decimal number.
+pub(crate) fn number(text: &str) -> Option<f64> {
+    let looks =
+        text.trim().bytes().all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+' | b'e' | b'E'));
+    text.trim().parse().ok().filter(|x: &f64| looks && x.is_finite())
+}
+
+/// A switch as slicers write it.
+pub(crate) fn switch(text: &str) -> Option<bool> {
+    match first_of(text) {
+        "1" | "true" | "True" => Some(true),
+        "0" | "false" | "False" => Some(false),
+        _ => None,
+    }
+}
+
+/// Bed outline as corners `0x0,250x0,...`: size, whether the origin is in the middle, whether it is round.
+pub(crate) fn bed(text: &str) -> Option<([f64; 2], bool, bool)> {
+    let corner = |word: &str| {
+        let (x, y) = word.trim().split_once('x')?;
+        Some([number(x)?, number(y)?])
+    };
+    let corners: Vec<[f64; 2]> = text.split(',').map(corner).collect::<Option<_>>()?;
+    let span = |k: usize| {
+        let low = corners.iter().map(|c| c[k]).fold(f64::INFINITY, f64::min);
+        let high = corners.iter().map(|c| c[k]).fold(f64::NEG_INFINITY, f64::max);
+        (low, high - low)
+    };
+    let ((x, width), (y, depth)) = (span(0), span(1));
+    if corners.len() < 3 || width <= 0.0 || depth <= 0.0 {
+        return None;
+    }
+    /// Rounding of corners on a circle, mm.
+    const SLACK: f64 = 0.5;
+    let centred = (x + width / 2.0).abs() < SLACK && (y + depth / 2.0).abs() < SLACK;
+    let cornered = x.abs() < SLACK && y.abs() < SLACK;
+    let rounded = |x: f64| (x * 1000.0).round() / 1000.0;
+    (centred || cornered).then_some(([rounded(width), rounded(depth)], centred, corners.len() > 8))
+}
+
+/// Takes over a bed.
+pub(crate) fn take_bed(key: &str, text: &str, out: &mut Collector) {
+    match bed(text) {
+        None => out.leave(key, text, "its origin is neither a corner nor the middle; left as it is"),
+        Some((size, centred, round)) => {
+            out.map(key, text, "printer.bed_size", Value::from(size.to_vec()));
+            out.map(key, text, "printer.origin", Value::from(if centred { "center" } else { "corner" }));
+            out.map(key, text, "printer.bed_shape", Value::from(if round { "round" } else { "rectangle" }));
+        }
+    }
+}
+
+/// A speed or width that may be a share of another one; 0 means that the slicer chooses.
+pub(crate) fn take_relative(key: &str, text: &str, path: &str, base: Option<f64>, out: &mut Collector) {
+    let first = first_of(text);
+    match (number(first.trim_end_matches('%')), first.ends_with('%'), base) {
+        (Some(0.0), _, _) => out.leave(key, text, "chosen by the slicer; left as it is"),
+        (Some(value), false, _) => out.map(key, text, path, Value::from(value)),
+        (Some(share), true, Some(base)) => {
+            let value = thousandths(share / 100.0 * base);
+            out.change(key, text, path, Value::from(value), &format!("{share} % of {base}"));
+        }
+        _ => out.leave(key, text, "relative to a value that is not in the profile; left as it is"),
+    }
+}

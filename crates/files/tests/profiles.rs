@@ -1,0 +1,269 @@
+//! Ten profiles written by hand after the formats' documents (`tests/profiles/`): right values and honest
+//! lists.
+
+use std::io::{Cursor, Write};
+use std::path::Path;
+
+use foothold_files::{FileError, Imported, import};
+use serde_json::{Value, json};
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
+
+fn file(name: &str) -> Vec<u8> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/profiles").join(name);
+    std::fs::read(path).expect("a fixture")
+}
+
+fn imported(name: &str) -> Imported {
+    import(&file(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+/// A .curaprofile of these files.
+fn cura(names: &[&str]) -> Imported {
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    for name in names {
+        zip.start_file(name.trim_end_matches(".inst.cfg"), SimpleFileOptions::default()).expect("in memory");
+        zip.write_all(&file(name)).expect("in memory");
+    }
+    import(&zip.finish().expect("in memory").into_inner()).expect("a good profile")
+}
+
+fn keys(list: &[foothold_files::import::Entry]) -> Vec<&str> {
+    let mut keys: Vec<&str> = list.iter().map(|e| e.key.as_str()).collect();
+    keys.dedup();
+    keys
+}
+
+fn why<'a>(found: &'a Imported, key: &str) -> &'a str {
+    let entry = found
+        .changed
+        .iter()
+        .find(|e| e.key == key)
+        .unwrap_or_else(|| panic!("{key} is not among the changed"));
+    entry.why.as_deref().unwrap_or_default()
+}
+
+#[track_caller]
+fn assert_settings(found: &Imported, expected: Value) {
+    assert_eq!(
+        found.settings,
+        expected,
+        "{}",
+        serde_json::to_string_pretty(&found.settings).unwrap_or_default()
+    );
+}
+
+#[test]
+fn prusa_print() {
+    let found = imported("prusa_print.ini");
+    assert_eq!(found.slicer, "prusaslicer");
+    let mut expected = json!({
+        "layers": { "height": 0.15, "first_height": 0.2 },
+        "walls": { "count": 2, "width": 0.45 },
+        "skin": { "top_layers": 7, "bottom_layers": 5 },
+        "infill": { "density": 0.2 },
+        "seam": { "position": "rear" },
+        "speed": { "outer_wall": 30.0, "inner_wall": 60.0, "infill": 80.0, "solid_infill": 80.0, "top_skin": 40.0 },
+        "first_layer": { "speed": 20.0, "line_width": 0.42 },
+        "support": { "method": "grid", "everywhere": false, "overhang_angle_deg": 35.0 },
+        "adhesion": {
+            "kind": "brim", "brim": { "width": 5.0, "side": "outer" }, "skirt": { "distance": 3.0 }
+        }
+    });
+    // A pattern is taken over as soon as there is one of that name.
+    if let Some(pattern) = found.settings["infill"].get("pattern") {
+        expected["infill"]["pattern"] = pattern.clone();
+        assert_eq!(pattern, "gyroid");
+    } else {
+        assert!(why(&found, "fill_pattern").contains("\"gyroid\" is not among"));
+    }
+    assert_settings(&found, expected);
+    assert_eq!(keys(&found.unknown), ["wipe_tower"]);
+    assert_eq!(why(&found, "external_perimeter_speed"), "50 % of 60");
+    assert_eq!(why(&found, "skirts"), "only one kind of base layer at a time; left out");
+}
+
+#[test]
+fn prusa_printer() {
+    let found = imported("prusa_printer.ini");
+    assert_settings(
+        &found,
+        json!({
+            "printer": {
+                "bed_size": [250.0, 210.0], "origin": "corner", "bed_shape": "rectangle", "height": 210.0,
+                "nozzle_diameter": 0.4, "flavor": "marlin", "max_speed_xy": 200.0, "acceleration": 1250.0,
+                "label_objects": true,
+                "start_gcode": "M104 S{first_layer_nozzle_temp} ; hot\nM190 S{first_layer_bed_temp}\n\
+                                M109 S{first_layer_nozzle_temp}\nG28 W\nG80\n"
+            },
+            "retraction": { "length": 0.8, "speed": 35.0, "z_hop": 0.4, "min_travel": 1.0 }
+        }),
+    );
+    assert!(why(&found, "end_gcode").starts_with("its placeholder \"if layer_z < max_print_height\""));
+    assert_eq!(why(&found, "machine_max_acceleration_extruding"), "the first of several tools");
+    assert_eq!(keys(&found.unknown), ["silent_mode"]);
+}
+
+#[test]
+fn prusa_filament() {
+    let found = imported("prusa_filament.ini");
+    assert_settings(
+        &found,
+        json!({ "filament": {
+            "material": "PETG", "diameter": 1.75, "density": 1.27, "cost_per_kg": 27.82, "max_volumetric_speed": 8.0,
+            "nozzle_temp": 240.0, "first_layer_nozzle_temp": 230.0, "bed_temp": 90.0, "first_layer_bed_temp": 85.0,
+            "fan_speed": 0.5, "bridge_fan_speed": 0.5, "fan_first_layers": 3
+        } }),
+    );
+    assert!(found.changed.is_empty());
+    assert_eq!(keys(&found.unknown), ["cooling"]);
+}
+
+#[test]
+fn prusa_gcode() {
+    let found = imported("prusa_gcode.gcode");
+    assert_settings(
+        &found,
+        json!({
+            "layers": { "height": 0.3 }, "walls": { "count": 4 }, "infill": { "density": 1.0, "pattern": "lines" },
+            "printer": { "bed_size": [180.0, 177.2], "origin": "center", "bed_shape": "round" },
+            "adhesion": { "kind": "none" }
+        }),
+    );
+    assert_eq!(why(&found, "temperature"), "filament.nozzle_temp: outside 0 to 500; left as it is");
+}
+
+#[test]
+fn orca_process() {
+    let found = imported("orca_process.json");
+    assert_eq!(found.slicer, "orcaslicer");
+    assert_settings(
+        &found,
+        json!({
+            "layers": { "height": 0.2, "first_height": 0.25 }, "walls": { "count": 4, "width": 0.45 },
+            "skin": { "top_layers": 6, "bottom_layers": 4 }, "infill": { "density": 0.12, "pattern": "grid" },
+            "seam": { "position": "rear" }, "printer": { "nozzle_diameter": 0.4 },
+            "speed": { "outer_wall": 120.0, "inner_wall": 200.0, "infill": 250.0 },
+            "first_layer": { "speed": 40.0, "line_width": 0.5, "elephant_foot": 0.1 },
+            "support": { "method": "grid", "overhang_angle_deg": 60.0, "everywhere": true },
+            "adhesion": { "kind": "brim", "brim": { "width": 5.0, "side": "outer" } }
+        }),
+    );
+    assert_eq!(keys(&found.unknown), ["support_type"]);
+    assert_eq!(why(&found, "inherits"), "values of the profile it builds on are not in the file");
+    assert_eq!(why(&found, "initial_layer_line_width"), "125 % of 0.4");
+}
+
+#[test]
+fn orca_machine() {
+    let found = imported("orca_machine.json");
+    assert_settings(
+        &found,
+        json!({
+            "printer": {
+                "bed_size": [300.0, 300.0], "origin": "corner", "bed_shape": "rectangle", "height": 260.0,
+                "nozzle_diameter": 0.6, "flavor": "klipper", "max_speed_xy": 300.0,
+                "start_gcode": "M190 S{first_layer_bed_temp}\nPRINT_START EXTRUDER={first_layer_nozzle_temp}\n"
+            },
+            "retraction": { "length": 0.5, "speed": 30.0, "z_hop": 0.2, "min_travel": 2.0 }
+        }),
+    );
+    assert!(why(&found, "machine_end_gcode").starts_with("its placeholder \"total_toolchanges\""));
+    assert_eq!(keys(&found.unknown), ["single_extruder_multi_material"]);
+}
+
+#[test]
+fn orca_filament() {
+    let found = imported("orca_filament.json");
+    assert_settings(
+        &found,
+        json!({ "filament": {
+            "material": "ASA", "nozzle_temp": 255.0, "first_layer_nozzle_temp": 260.0, "bed_temp": 100.0,
+            "first_layer_bed_temp": 105.0, "density": 1.07, "cost_per_kg": 25.0, "max_volumetric_speed": 18.0,
+            "fan_speed": 0.3, "bridge_fan_speed": 0.5, "fan_first_layers": 3, "pressure_advance": 0.035,
+            "nozzle_temp_range": [240.0, 280.0]
+        } }),
+    );
+    assert_eq!(keys(&found.unknown), ["chamber_temperature"]);
+}
+
+#[test]
+fn cura_quality_and_extruder() {
+    let found = cura(&["cura_fine.inst.cfg", "cura_extruder.inst.cfg"]);
+    assert_eq!(found.slicer, "cura");
+    let mut settings = found.settings.clone();
+    // Patterns and seams are taken over as soon as there are some of their names.
+    let group = settings.as_object_mut().expect("settings");
+    group.remove("seam");
+    assert_eq!(
+        settings,
+        json!({
+            "layers": { "height": 0.3 }, "walls": { "count": 2, "width": 0.42 },
+            "infill": { "density": 0.18, "pattern": "lines" }, "speed": { "infill": 55.0 },
+            "filament": { "nozzle_temp": 205.0, "bed_temp": 70.0, "fan_first_layers": 2 },
+            "first_layer": { "elephant_foot": 0.2 },
+            "support": { "method": "grid", "everywhere": false },
+            "adhesion": { "kind": "brim", "brim": { "width": 6.0 } }
+        })
+    );
+    assert_eq!(why(&found, "retraction_amount"), "a formula; left as it is");
+    assert_eq!(why(&found, "retraction_hop"), "switched off in the profile");
+    assert_eq!(why(&found, "line_width"), "wall_line_width goes before it");
+    assert_eq!(keys(&found.unknown), ["zig_zaggify_infill"]);
+}
+
+#[test]
+fn cura_machine() {
+    let found = cura(&["cura_machine.inst.cfg"]);
+    assert_settings(
+        &found,
+        json!({ "printer": {
+            "bed_size": [200.0, 200.0], "height": 300.0, "bed_shape": "round", "origin": "center", "flavor": "reprap",
+            "start_gcode": "G28\nM109 S{first_layer_nozzle_temp}\nG1 Z10 F3000\n", "end_gcode": "M104 S0\n"
+        } }),
+    );
+}
+
+#[test]
+fn cura_damaged() {
+    let found = cura(&["cura_damaged.inst.cfg"]);
+    assert_settings(&found, json!({ "skin": { "top_layers": 4 } }));
+    assert_eq!(
+        keys(&found.changed),
+        ["infill_pattern", "infill_sparse_density", "layer_height", "machine_start_gcode", "wall_line_count"]
+    );
+}
+
+#[test]
+fn what_is_no_profile_is_refused() {
+    assert_eq!(import(b"").unwrap_err(), FileError::Empty);
+    assert_eq!(import(b"solid cube\nfacet").unwrap_err(), FileError::UnknownProfile);
+    assert_eq!(import(b"{\"a\": 1}").unwrap_err(), FileError::UnknownProfile);
+    assert!(matches!(import(b"{\"layer_height\": ").unwrap_err(), FileError::Malformed { .. }));
+    assert!(matches!(
+        import("[".repeat(100_000).replace('[', "{\"a\":").as_bytes()).unwrap_err(),
+        FileError::Malformed { .. }
+    ));
+    assert!(matches!(import(b"\xff\xfel\0").unwrap_err(), FileError::Encoding { seems: "UTF-16" }));
+    assert!(matches!(
+        import(b"layer_height = 0.2\nnotes = caf\xe9").unwrap_err(),
+        FileError::Encoding { .. }
+    ));
+}
+
+/// Every path that rows name is a setting: none falls to the unknown.
+#[test]
+fn nothing_known_is_called_unknown() {
+    for name in [
+        "prusa_print.ini",
+        "prusa_printer.ini",
+        "prusa_filament.ini",
+        "orca_process.json",
+        "orca_machine.json",
+        "orca_filament.json",
+    ] {
+        let found = imported(name);
+        assert!(found.unknown.len() <= 1, "{name}: {:?}", keys(&found.unknown));
+        assert!(found.mapped.len() >= 9, "{name}");
+    }
+}

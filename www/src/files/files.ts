@@ -1,0 +1,74 @@
+// Files of other programs, read by a second wasm module that is loaded when such a file is opened: models in 3MF and
+// OBJ, profiles of other slicers.
+import type { Bytes, ModelSource } from '../messages.ts';
+import { EngineError, toFailure } from '../slicer/errors.ts';
+
+export type Files = typeof import('../generated/files/foothold_files.js');
+export type LoadFiles = () => Promise<Files>;
+
+/** Larger files of these formats are refused: they are read whole. */
+const LARGEST = 400 * 1024 * 1024;
+
+/** The models in a file that is no STL, as one STL for each part. Throws a ModelError. */
+export async function modelsIn({ name, file }: ModelSource, load: LoadFiles): Promise<readonly ModelSource[]> {
+  try {
+    if (file.size > LARGEST) throw new EngineError(tooLarge(file.size));
+    const files = await load();
+    const parts = new files.Parts(name, await bytes(file, file.size));
+    const count = parts.count();
+    const models = Array.from({ length: count }, (_, k) => ({
+      name: count === 1 ? name : `${stem(name)}_${parts.name(k) || k + 1}`,
+      file: new Blob([parts.stl(k) as Uint8Array<ArrayBuffer>]),
+    }));
+    parts.free();
+    return models;
+  } catch (error) {
+    throw new EngineError(toFailure(error, name));
+  }
+}
+
+/** What became of a profile of another slicer; the engine's `Imported`. */
+export interface Imported {
+  readonly slicer: string;
+  readonly settings: object;
+  readonly mapped: readonly Entry[];
+  readonly changed: readonly Entry[];
+  readonly unknown: readonly Entry[];
+}
+
+export interface Entry {
+  readonly key: string;
+  readonly value: string;
+  readonly path?: string;
+  readonly to?: string;
+  readonly why?: string;
+}
+
+/** Reads a profile of PrusaSlicer, OrcaSlicer or Cura. Throws a SettingsError. */
+export async function importProfile(profile: Uint8Array, load: LoadFiles): Promise<Imported> {
+  const files = await load();
+  return JSON.parse(files.import_profile(profile)) as Imported;
+}
+
+/** Whether a file is no STL: a ZIP archive by its first bytes, or by its name; the module looks closer. */
+export async function isForeign({ name, file }: ModelSource): Promise<boolean> {
+  // What cannot be read is told when the model is.
+  const beginning = await bytes(file, 4).catch(() => new Uint8Array());
+  const isZip = beginning[0] === 0x50 && beginning[1] === 0x4b && (beginning[2] ?? 0) < 8;
+  return isZip || /\.(obj|3mf)$/i.test(name);
+}
+
+async function bytes(file: Bytes, to: number): Promise<Uint8Array> {
+  return new Uint8Array(await file.slice(0, Math.min(to, file.size)).arrayBuffer());
+}
+
+function tooLarge(size: number): { name: string; message: string; fatal: boolean } {
+  const mib = (n: number): string => `${Math.round(n / 1024 / 1024)} MiB`;
+  return { name: 'ModelError', message: `too large: ${mib(size)}, the limit is ${mib(LARGEST)}`, fatal: false };
+}
+
+/** A file's name without folders and ending. */
+export function stem(name: string): string {
+  const base = name.split(/[/]/).at(-1) ?? name;
+  return base.replace(/\.(stl|3mf|obj)$/i, '') || 'model';
+}
