@@ -140,9 +140,9 @@ impl Cells {
 
     /// Takes the cells that have a corner where nothing may stand.
     fn take_where(&mut self, closed: impl Fn(DVec2) -> bool) {
-        for (x, y) in (0..self.rows).flat_map(|y| (0..self.columns).map(move |x| (x, y))) {
-            let corner =
-                |dx: usize, dy: usize| self.origin + dvec2((x + dx) as f64, (y + dy) as f64) * CELL_MM;
+        let (origin, columns) = (self.origin, self.columns);
+        for (x, y) in (0..self.rows).flat_map(|y| (0..columns).map(move |x| (x, y))) {
+            let corner = |dx: usize, dy: usize| origin + dvec2((x + dx) as f64, (y + dy) as f64) * CELL_MM;
             let corners = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
             if corners.into_iter().any(&closed) {
                 self.take_all(&corners);
