@@ -147,6 +147,18 @@ fn all_heat_and_retract_alike() {
     }
 }
 
+/// Repetier-Firmware's list of codes has no command that waits for the user; Bambu's M400 U1 does.
+#[test]
+fn pauses_only_where_there_are_any() {
+    let pause = "gcode.events=[{\"layer\":2,\"kind\":\"pause\"}]";
+    assert!(file(Flavor::Bambu, &[pause]).contains("\nM400 U1\n"));
+    let settings = Settings::resolve([], ["printer.flavor=\"repetier\"", pause]).expect("good settings");
+    let cube = NamedModel::new("cube", load(&write_binary(&common::cube(2.0))).expect("a cube"));
+    let error = Job::new(&[cube], settings, &|| 0.0).expect_err("no pause");
+    let message = "gcode.events[0]: the firmware repetier is not known to wait for the user";
+    assert_eq!(error.to_string(), message);
+}
+
 /// Nothing is said of objects and pressure advance unless it is asked for.
 #[test]
 fn defaults_add_nothing() {

@@ -34,9 +34,9 @@ test('profiles chosen in the form', () => {
   for (const { id } of offered.printer) {
     const changes = withProfile(withProfile(withProfile({}, 'quality', 'fine'), 'printer', id), 'material', 'petg');
     expect(chosenIn(changes)).toEqual({ printer: id, material: 'petg', quality: 'fine' });
-    expect(Object.entries(changes).every(([path, value]) => typeof value !== 'object' || isOfProfile(path, value))).toBe(
-      true,
-    );
+    expect(
+      Object.entries(changes).every(([path, value]) => typeof value !== 'object' || isOfProfile(path, value)),
+    ).toBe(true);
   }
   const tuned = { ...withProfile({}, 'printer', 'p1s'), 'walls.count': 4, 'retraction.length': 1.25 };
   expect(chosenIn(tuned).printer).toBeUndefined();

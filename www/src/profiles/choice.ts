@@ -1,5 +1,5 @@
 // Profiles as changes of the form: choosing one writes its settings, and one is chosen while all of its settings hold.
-import { type Changes, withChange } from '../settings/changes.ts';
+import type { Changes } from '../settings/changes.ts';
 import type { Value } from '../settings/fields.ts';
 import { allFields } from '../settings/room.ts';
 import { type Kind, materials, type Profile, printers, qualities } from './catalog.ts';
@@ -7,7 +7,9 @@ import type { Layers } from './layers.ts';
 
 /** What the page offers. Its bed begins at X0 Y0, so printers with their origin in the middle are left out. */
 export const offered: Readonly<Record<Kind, readonly Profile[]>> = {
-  printer: printers.filter((it) => !valuesOf(it).some(([path, value]) => path === 'printer.origin' && value === 'center')),
+  printer: printers.filter(
+    (it) => !valuesOf(it).some(([path, value]) => path === 'printer.origin' && value === 'center'),
+  ),
   material: materials,
   quality: qualities,
 };
@@ -36,10 +38,10 @@ export function withProfile(changes: Changes, kind: Kind, id: string | undefined
   const own = new Set(offered[kind].flatMap(valuesOf).map(([path]) => path));
   const left = Object.fromEntries(Object.entries(changes).filter(([path]) => !own.has(path)));
   const values = kinds.flatMap((it) => offered[it].filter((profile) => profile.id === layers[it]).flatMap(valuesOf));
-  return values.reduce<Changes>((all, [path, value]) => {
-    const field = fields.get(path);
-    return field === undefined ? { ...all, [path]: value } : withChange(all, field, value);
-  }, left);
+  const set = new Map(values);
+  const others = Object.entries(left).filter(([path]) => !set.has(path));
+  const unlike = [...set].filter(([path, value]) => !same(fields.get(path)?.default, value));
+  return Object.fromEntries([...others, ...unlike]);
 }
 
 /** Whether a profile sets exactly this; some set what is no field of the form, such as forbidden zones. */

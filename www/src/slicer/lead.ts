@@ -273,7 +273,6 @@ async function read(file: ModelSource['file'], from: number): Promise<Uint8Array
   }
 }
 
-
 /** The chunk's text, moved out of the engine. */
 export function taken(chunk: Chunk): SlicedRange {
   const range = { offsets: chunk.layer_offsets(), text: chunk.text() as Uint8Array<ArrayBuffer> };
