@@ -9,6 +9,7 @@ import { placeIn } from './lesson/steps.ts';
 import type { Edit, ModelSource } from './messages.ts';
 import { asStanding, atFreeSpot, freeId, movedTo, type Part, standing, UNMOVED } from './parts.ts';
 import { settingsFiles } from './profiles/catalog.ts';
+import { besideForm } from './profiles/choice.ts';
 import { parseSaved, type SavedSettings } from './profiles/layers.ts';
 import { asChanges, asSettings, type Changes, withChange } from './settings/changes.ts';
 import type { Value } from './settings/fields.ts';
@@ -220,7 +221,8 @@ export class Session {
       const above = JSON.stringify(own?.settings ?? found?.settings ?? {});
       const resolved = await this.#pool.settings([...below, above], []);
       const settingsNotes = found === undefined ? [] : notesOf(found, file.name);
-      return { changes: asChanges(JSON.parse(resolved), allFields), settingsNotes };
+      const all = JSON.parse(resolved) as object;
+      return { changes: { ...asChanges(all, allFields), ...besideForm(all) }, settingsNotes };
     });
   }
 

@@ -50,6 +50,13 @@ export function isOfProfile(path: string, value: Value): boolean {
   return all.some(([its, set]) => its === path && same(set, value));
 }
 
+/** Of all settings those that a profile has set and the form does not show. */
+export function besideForm(settings: object): Changes {
+  return Object.fromEntries(
+    leaves(settings, '').filter(([path, value]) => !fields.has(path) && isOfProfile(path, value)),
+  );
+}
+
 function holds(changes: Changes, profile: Profile, above: ReadonlySet<string>): boolean {
   return valuesOf(profile).every(
     ([path, value]) => above.has(path) || same(changes[path] ?? fields.get(path)?.default, value),
