@@ -219,7 +219,7 @@ proptest! {
                 Move::Role(next) => { role = Some(next); continue }
                 Move::Height(_) => continue,
                 Move::Width(next) => { width = Some(f64::from(next) / 1000.0); continue }
-                Move::Fan(_) | Move::Acceleration(_) | Move::Tool { .. } => continue,
+                Move::Fan(_) | Move::Acceleration(_) | Move::Tool { .. } | Move::Object { .. } => continue,
                 Move::Extrude { to, filament, feed } | Move::Wipe { to, filament, feed } => (Some(to), filament, feed),
                 Move::Climb { to, filament, feed, .. } => (Some(to), filament, feed),
                 Move::Arc { curve, filament, feed } => (Some(curve.to), filament, feed),
