@@ -94,7 +94,8 @@ test('where a worker cannot tell the port, the page has it', async ({ page }) =>
 test('pause parks, resume returns, cancel cools down', async ({ page }) => {
   await start(page, { printer: { moveMs: 20 }, factor: 4 });
   await connected(page);
-  await underWay(page);
+  // Long enough not to end before it is cancelled, however slow the page is.
+  await underWay(page, 20_000);
   await button(page, 'Pause').click();
   await expect(part(page, 'Print')).toContainText('Paused.');
   await expect(button(page, 'Resume')).toBeVisible();
