@@ -295,8 +295,9 @@ impl Job {
         let of_sample = |i: usize| self.specs[(2 * i + 1) * self.specs.len() / (2 * DENSITY_SAMPLES)].slice_z;
         let heights: Vec<f64> = (0..DENSITY_SAMPLES).map(of_sample).collect();
         let bead = Bead { width: walls.width, height: layers.height };
-        let sections = slice_mesh(&self.mesh, Axis::Z, &heights, PRINT_RESOLUTION).into_iter();
-        let inside: Vec<PolygonSet> = sections.map(|s| lay_walls(&s.area, bead, walls.count).inner).collect();
+        let sections = self.sections_at(&heights).into_iter();
+        let inside: Vec<PolygonSet> =
+            sections.map(|area| lay_walls(&area, bead, walls.count).inner).collect();
         line_density(&inside, bead, infill)
     }
 
@@ -308,9 +309,8 @@ impl Job {
         let every_few = self.specs.iter().step_by(SEAM_STEP);
         let mut heights: Vec<f64> = every_few.chain(self.specs.last()).map(|s| s.slice_z).collect();
         heights.dedup();
-        let sections = slice_mesh(&self.mesh, Axis::Z, &heights, PRINT_RESOLUTION).into_iter();
-        let sections: Vec<(f64, PolygonSet)> =
-            heights.into_iter().zip(sections.map(|s| self.settings.walls.expanded(s.area))).collect();
+        let sections = self.sections_at(&heights);
+        let sections: Vec<(f64, PolygonSet)> = heights.into_iter().zip(sections).collect();
         chain_seams(&sections)
     }
 
@@ -346,8 +346,12 @@ impl Job {
 
     /// The part's section in each of its layers.
     pub fn areas(&self) -> Vec<PolygonSet> {
-        let heights = self.part_heights();
-        let sections = slice_mesh(&self.mesh, Axis::Z, &heights, PRINT_RESOLUTION);
+        self.sections_at(&self.part_heights())
+    }
+
+    /// The part's section at each of these heights, mm, as it is to be printed.
+    fn sections_at(&self, heights: &[f64]) -> Vec<PolygonSet> {
+        let sections = slice_mesh(&self.mesh, Axis::Z, heights, PRINT_RESOLUTION);
         sections.into_iter().map(|s| self.settings.walls.expanded(s.area)).collect()
     }
 
@@ -365,8 +369,7 @@ impl Job {
     /// The part's first layer as it will be printed on or beside this kind of base.
     pub fn first_outline(&self, kind: AdhesionKind) -> PolygonSet {
         let height = self.part_heights().first().copied().unwrap_or_default();
-        let bottom = slice_mesh(&self.mesh, Axis::Z, &[height], PRINT_RESOLUTION);
-        let section = self.settings.walls.expanded(bottom.into_iter().next().unwrap_or_default().area);
+        let section = self.sections_at(&[height]).pop().unwrap_or_default();
         // On a raft nothing is squeezed against the bed.
         if kind == AdhesionKind::Raft { section } else { draw_in(&section, &self.settings.first_layer) }
     }

@@ -253,6 +253,99 @@ fn fill_bridge(bridge: &Bridge, bead: Bead, flow: f64) -> (Vec<Path>, PolygonSet
     (paths.into_iter().map(|path| Path { width: Width::Uniform(width), ..path }).collect(), narrow)
 }
 
+/// Lays the fills of one layer.
+struct LayerFills<'a> {
+    plan: &'a RangePlan,
+    spec: &'a LayerSpec,
+    bead: Bead,
+    /// How far the areas to fill reach into the innermost wall, mm.
+    overlap: f64,
+}
+
+impl LayerFills<'_> {
+    /// Lays regions and bridges; gives what is too narrow for their lines.
+    fn fill_areas(
+        &self,
+        regions: Vec<Region>,
+        bridges: Vec<Bridge>,
+        parts: &mut LayerParts,
+    ) -> Vec<PolygonSet> {
+        let settings = &self.plan.settings;
+        // The area reaches into the walls already, as far as skins do.
+        let reach = (settings.infill.overlap - settings.skin.overlap).max(0.0);
+        let sparse = InfillOptions { overlap: reach, ..settings.infill.clone() };
+        let mut narrow_places = Vec::new();
+        for region in regions {
+            narrow_places.extend(self.fill_region(&region, &sparse, parts));
+        }
+        for bridge in bridges {
+            let (paths, narrow) = fill_bridge(&bridge, self.bead, settings.skin.bridge_flow);
+            parts.fills.extend(paths);
+            narrow_places.push(narrow);
+        }
+        narrow_places
+    }
+
+    /// Lays a region as its role asks; gives what is too narrow for solid lines.
+    fn fill_region(
+        &self,
+        region: &Region,
+        sparse: &InfillOptions,
+        parts: &mut LayerParts,
+    ) -> Option<PolygonSet> {
+        let LayerFills { plan: RangePlan { settings, line_density, .. }, spec, bead, .. } = *self;
+        if region.role == Role::TopSkin && settings.ironing.enabled {
+            parts.fills.extend(iron(&region.area, spec.height, spec.index, &settings.ironing));
+        }
+        if region.role == Role::Infill {
+            let layer = InfillLayer { index: spec.index, z: spec.print_z };
+            parts.fills.extend(fill_sparse(&region.area, bead, layer, *line_density, sparse));
+            return None;
+        }
+        if matches!(region.role, Role::TopSkin | Role::BottomSkin) && settings.skin.monotonic {
+            let (rows, narrow) = fill_surface(&region.area, region.role, bead, spec.index);
+            parts.rows.extend(rows);
+            return Some(narrow);
+        }
+        let (paths, narrow) = fill_solid(&region.area, region.role, bead, spec.index);
+        parts.fills.extend(paths);
+        Some(narrow)
+    }
+
+    /// Fills walls thinner than two beads, and what walls and fills leave between them.
+    fn fill_thin_places(
+        &self,
+        thin_walls: &PolygonSet,
+        between_walls: PolygonSet,
+        beside_fills: Vec<PolygonSet>,
+        parts: &mut LayerParts,
+    ) {
+        let nozzle = self.plan.settings.printer.nozzle_diameter;
+        parts.fills.extend(fill_thin(thin_walls, &ThinFill::for_nozzle(nozzle, Role::OuterWall)).paths);
+        // A bead between others overlaps them with its round sides, so it is wider than its gap. What
+        // fills leave over has their overlap with the walls in it.
+        let gap = |by: f64| {
+            let options = ThinFill::for_nozzle(nozzle, Role::GapFill);
+            ThinFill { min_width: options.min_width - by, max_width: options.max_width - by, ..options }
+        };
+        let wider_beside_fills = self.bead.overlap() - 2.0 * self.overlap;
+        let gaps = std::iter::once((between_walls, self.bead.overlap()));
+        for (area, wider) in gaps.chain(beside_fills.into_iter().map(|narrow| (narrow, wider_beside_fills))) {
+            parts
+                .fills
+                .extend(fill_thin(&area, &gap(wider)).paths.into_iter().map(|path| path.widened(wider)));
+        }
+    }
+}
+
+/// Starts the outer walls where their seams run.
+fn set_seams(plan: &RangePlan, spec: &LayerSpec, parts: &mut LayerParts) {
+    let seams: Vec<DVec2> = plan.seams.iter().filter_map(|s| s.at(spec.slice_z, SEAM_REACH)).collect();
+    let mut outer: Vec<&mut Path> =
+        parts.walls.iter_mut().filter(|(depth, _)| *depth == 0).map(|(_, path)| path).collect();
+    place_seams(&mut outer, &plan.settings.seam, &seams, spec.index);
+}
+
 /// Walls, fills and foundation of one layer, in printing order.
 fn lay_paths(
     plan: &RangePlan,
@@ -283,53 +376,13 @@ fn lay_paths(
     }
     let after_regions = clock();
 
+    let fills = LayerFills { plan, spec, bead, overlap };
     let mut parts = LayerParts { walls: walls.loops, ..LayerParts::default() };
     parts.foundation = plan.laid.get(place - plan.first).cloned().unwrap_or_default();
     parts.after = plan.after.get(place - plan.first).cloned().unwrap_or_default();
-    let nozzle = settings.printer.nozzle_diameter;
-    let mut narrow_places = Vec::new();
-    // The area reaches into the walls already, as far as skins do.
-    let reach = (settings.infill.overlap - settings.skin.overlap).max(0.0);
-    let sparse = InfillOptions { overlap: reach, ..settings.infill.clone() };
-    for region in regions {
-        if region.role == Role::TopSkin && settings.ironing.enabled {
-            parts.fills.extend(iron(&region.area, spec.height, spec.index, &settings.ironing));
-        }
-        if region.role == Role::Infill {
-            let layer = InfillLayer { index: spec.index, z: spec.print_z };
-            let density = plan.line_density;
-            parts.fills.extend(fill_sparse(&region.area, bead, layer, density, &sparse));
-        } else if matches!(region.role, Role::TopSkin | Role::BottomSkin) && settings.skin.monotonic {
-            let (rows, narrow) = fill_surface(&region.area, region.role, bead, spec.index);
-            parts.rows.extend(rows);
-            narrow_places.push(narrow);
-        } else {
-            let (paths, narrow) = fill_solid(&region.area, region.role, bead, spec.index);
-            parts.fills.extend(paths);
-            narrow_places.push(narrow);
-        }
-    }
-    for bridge in bridges {
-        let (paths, narrow) = fill_bridge(&bridge, bead, settings.skin.bridge_flow);
-        parts.fills.extend(paths);
-        narrow_places.push(narrow);
-    }
-    parts.fills.extend(fill_thin(&walls.thin_outer, &ThinFill::for_nozzle(nozzle, Role::OuterWall)).paths);
-    // A bead between others overlaps them with its round sides, so it is wider than its gap. What
-    // fills leave over has their overlap with the walls in it.
-    let gap = |by: f64| {
-        let options = ThinFill::for_nozzle(nozzle, Role::GapFill);
-        ThinFill { min_width: options.min_width - by, max_width: options.max_width - by, ..options }
-    };
-    let beside_fills = bead.overlap() - 2.0 * overlap;
-    let gaps = std::iter::once((walls.thin_inner, bead.overlap()));
-    for (area, wider) in gaps.chain(narrow_places.into_iter().map(|narrow| (narrow, beside_fills))) {
-        parts.fills.extend(fill_thin(&area, &gap(wider)).paths.into_iter().map(|path| path.widened(wider)));
-    }
-    let seams: Vec<DVec2> = plan.seams.iter().filter_map(|s| s.at(spec.slice_z, SEAM_REACH)).collect();
-    let mut outer: Vec<&mut Path> =
-        parts.walls.iter_mut().filter(|(depth, _)| *depth == 0).map(|(_, path)| path).collect();
-    place_seams(&mut outer, &settings.seam, &seams, spec.index);
+    let narrow = fills.fill_areas(regions, bridges, &mut parts);
+    fills.fill_thin_places(&walls.thin_outer, walls.thin_inner, narrow, &mut parts);
+    set_seams(plan, spec, &mut parts);
     let ordered = order_layer(parts, &outline, spec.index, settings.seam.position);
     let ordered = match over_air {
         Some(below) => mark_overhangs(ordered, below, &exposures[place].bottom, width),
