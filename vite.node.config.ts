@@ -1,7 +1,7 @@
 import { copyFileSync } from 'node:fs';
 import { defineConfig, type Plugin } from 'vite';
 
-// What bin/foothold.mjs runs: the command line, and the thread that slices beside it.
+// What bin/foothold.mjs runs: the command line, and the thread that slices beside it; and the package's own module.
 export default defineConfig({
   publicDir: false,
   build: {
@@ -10,7 +10,7 @@ export default defineConfig({
     emptyOutDir: true,
     target: 'node20',
     rollupOptions: {
-      input: { cli: 'bin/cli/main.ts', lane: 'bin/cli/lane.ts' },
+      input: { cli: 'bin/cli/main.ts', lane: 'bin/cli/lane.ts', index: 'bin/api/index.ts' },
       output: { format: 'es', entryFileNames: '[name].mjs', chunkFileNames: '[name].mjs' },
     },
   },

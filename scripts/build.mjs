@@ -2,7 +2,8 @@
 //
 //   Rust -> schema/*.json -> TypeScript types
 //   Rust -> wasm -> wasm-bindgen -> wasm-opt -> www/src/generated/engine and files
-//   www, bin/cli -> dist/page (static files, any sub-path) and dist/node (what bin/foothold.mjs runs)
+//   www, bin -> dist/page (static files, any sub-path), dist/element (<foothold-slicer> for other sites),
+//               dist/node (what bin/foothold.mjs runs, and the package in Node), dist/types (the package's types)
 //
 // FOOTHOLD_QUICK=1 builds the engine in a third of the time, larger and a little slower, for trying things out.
 import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
@@ -18,7 +19,7 @@ import { step } from './step.mjs';
 const quick = process.env.FOOTHOLD_QUICK === '1';
 const profile = quick ? 'quick' : 'release';
 const rust = ['src', 'crates', 'Cargo.toml', 'Cargo.lock', 'rust-toolchain.toml', '.cargo'];
-const web = ['www', 'profiles', 'package-lock.json', 'vite.config.ts', 'vite.node.config.ts'];
+const web = ['www', 'profiles', 'package-lock.json'];
 
 export async function build() {
   await npmPackages();
@@ -30,7 +31,9 @@ export async function build() {
   await files(bindgen);
   await sample();
   await page();
+  await element();
   await node();
+  await declarations();
 }
 
 function schemas() {
@@ -110,15 +113,31 @@ function sample() {
 }
 
 function page() {
-  return step('page', { inputs: [...web, 'schema'], outputs: ['dist/page/index.html'] }, () =>
+  return step('page', { inputs: [...web, 'schema', 'vite.config.ts'], outputs: ['dist/page/index.html'] }, () =>
     runPackage('vite/bin/vite.js', ['build', '--logLevel', 'warn']),
   );
 }
 
+function element() {
+  const config = 'vite.element.config.ts';
+  const outputs = ['dist/element/foothold-slicer.js'];
+  return step('element', { inputs: [...web, 'schema', config], outputs }, () => bundled(config));
+}
+
 function node() {
-  const outputs = ['dist/node/cli.mjs', 'dist/node/lane.mjs', 'dist/node/foothold_bg.wasm'];
-  return step('node', { inputs: [...web, 'bin', 'schema'], outputs }, () =>
-    runPackage('vite/bin/vite.js', ['build', '--config', 'vite.node.config.ts', '--logLevel', 'warn']),
+  const config = 'vite.node.config.ts';
+  const outputs = ['cli', 'lane', 'index'].map((it) => `dist/node/${it}.mjs`);
+  return step('node', { inputs: [...web, 'bin', 'schema', config], outputs }, () => bundled(config));
+}
+
+const bundled = (config) => runPackage('vite/bin/vite.js', ['build', '--config', config, '--logLevel', 'warn']);
+
+/** What the package's two modules offer, as declarations. */
+function declarations() {
+  const inputs = ['bin/api', 'www/src/element-types.ts', 'schema', 'tsconfig.package.json', 'tsconfig.strict.json'];
+  const outputs = ['dist/types/bin/api/types.d.ts', 'dist/types/www/src/element-types.d.ts'];
+  return step('declarations', { inputs, outputs }, () =>
+    runPackage('typescript/bin/tsc', ['-p', 'tsconfig.package.json']),
   );
 }
 

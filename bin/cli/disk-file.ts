@@ -1,10 +1,10 @@
 // A model on disk in the shape that the lead reads.
-import { openSync, readSync, statSync } from 'node:fs';
+import { closeSync, openSync, readSync, statSync } from 'node:fs';
 import type { Bytes, ModelSource } from '../../www/src/messages.ts';
 import { FileError, reasonOf } from './errors.ts';
 
-/** Bytes of a file, read when asked for; it stays open until the program ends. */
-class DiskFile implements Bytes {
+/** Bytes of a file, read when asked for; it stays open until it is closed or the program ends. */
+export class DiskFile implements Bytes {
   readonly size: number;
   readonly #file: number;
 
@@ -23,6 +23,10 @@ class DiskFile implements Bytes {
     return { arrayBuffer: async () => this.#read(from, to) };
   }
 
+  close(): void {
+    closeSync(this.#file);
+  }
+
   #read(from: number, to: number): ArrayBuffer {
     const bytes = new Uint8Array(to - from);
     for (let got = 0; got < bytes.length; ) {
@@ -35,6 +39,6 @@ class DiskFile implements Bytes {
 }
 
 /** The model file `name`. */
-export function openModel(name: string): ModelSource {
+export function openModel(name: string): ModelSource & { readonly file: DiskFile } {
   return { name, file: new DiskFile(name) };
 }

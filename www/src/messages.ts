@@ -226,7 +226,8 @@ export interface Failure {
 
 /** What goes over the wire to a lane in another thread, and what comes back. */
 export type ToLane<Q extends Tagged> =
-  | { readonly start: WebAssembly.Module }
+  /** The engine's code, and the address of the module for files of other programs where the lane may need it. */
+  | { readonly start: WebAssembly.Module; readonly files?: string | undefined }
   | { readonly id: number; readonly request: Q };
 export type FromLane<A extends Tagged> =
   | { readonly id: number; readonly reply: A }

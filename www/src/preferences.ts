@@ -3,7 +3,7 @@ import { closest, type Language, languages } from './i18n/text.ts';
 
 export type ThemeChoice = 'system' | 'light' | 'dark';
 
-const themes: readonly ThemeChoice[] = ['system', 'light', 'dark'];
+export const themes: readonly ThemeChoice[] = ['system', 'light', 'dark'];
 
 export interface Preferences {
   readonly language: Language;

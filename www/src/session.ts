@@ -17,6 +17,7 @@ import { allFields, roomOf } from './settings/room.ts';
 import { EngineError, isCancel } from './slicer/errors.ts';
 import { partsOf } from './slicer/gcode.ts';
 import type { Opened, Pool } from './slicer/pool.ts';
+import { filesUrl } from './slicer/threads.ts';
 import { fetched, lastPart, namedModel, SAMPLE } from './source.ts';
 import {
   type ModelFacts,
@@ -173,12 +174,14 @@ export class Session {
 
   undo(): void {
     const { state } = this.#store;
+    if (state.frame === 'locked') return;
     const change = undone(state.history, planOf(state));
     if (change !== undefined) this.#store.update({ ...change, trouble: undefined });
   }
 
   redo(): void {
     const { state } = this.#store;
+    if (state.frame === 'locked') return;
     const change = redone(state.history, planOf(state));
     if (change !== undefined) this.#store.update({ ...change, trouble: undefined });
   }
@@ -216,7 +219,7 @@ export class Session {
     await this.#edit(async ({ changes }) => {
       const content = new Uint8Array(await file.arrayBuffer());
       const own = ownSettings(content);
-      const found = own === undefined ? await importProfile(content, loadFiles) : undefined;
+      const found = own === undefined ? await importProfile(content, () => loadFiles(filesUrl)) : undefined;
       const below = own === undefined ? [asSettings(changes)] : settingsFiles(own.profiles);
       const above = JSON.stringify(own?.settings ?? found?.settings ?? {});
       const resolved = await this.#pool.settings([...below, above], []);
@@ -323,6 +326,7 @@ export class Session {
   /** Runs a change of the parts after those before it; what it cannot do is said beside the parts. */
   #edit(change: (state: State) => Promise<Partial<State>>): Promise<void> {
     const edit = async (): Promise<void> => {
+      if (this.#store.state.frame === 'locked') return;
       try {
         this.#store.update({ ...(await change(this.#store.state)), trouble: undefined });
       } catch (error) {

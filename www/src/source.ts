@@ -21,7 +21,9 @@ export function namedModel(address: string): string | undefined {
 
 /** Loads a model that lies beside the page. */
 export async function fetched(address: string, name: string): Promise<ModelSource> {
-  const response = await fetch(new URL(address, document.baseURI));
+  const response = await fetch(new URL(address, document.baseURI)).catch(() => {
+    throw new SourceError(t.model.unreachable(name));
+  });
   const isPage = response.headers.get('content-type')?.startsWith('text/html') === true;
   if (!response.ok || isPage) throw new SourceError(t.model.notFound(name));
   return { name, file: await response.blob() };

@@ -70,7 +70,11 @@ export type JobState =
 /** What the visitor is at; the steps share one view. */
 export type Step = 'prepare' | 'preview' | 'print' | 'learn';
 
+/** What the app stands in: a page of its own, another site's page, or one that has fixed model and settings. */
+export type Frame = 'page' | 'embedded' | 'locked';
+
 export interface State {
+  readonly frame: Frame;
   readonly engine: 'starting' | 'ready' | Problem;
   readonly model: ModelState;
   readonly job: JobState;
@@ -112,6 +116,7 @@ export interface State {
 }
 
 export const initial: State = {
+  frame: 'page',
   engine: 'starting',
   model: { kind: 'none' },
   job: { kind: 'idle' },

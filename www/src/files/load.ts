@@ -3,13 +3,14 @@ import type { Files } from './files.ts';
 
 let loaded: Promise<Files> | undefined;
 
-export function loadFiles(): Promise<Files> {
-  loaded ??= start();
+/** `wasm` is the address of the module's code. */
+export function loadFiles(wasm: string): Promise<Files> {
+  loaded ??= start(wasm);
   return loaded;
 }
 
-async function start(): Promise<Files> {
+async function start(wasm: string): Promise<Files> {
   const files = await import('../generated/files/foothold_files.js');
-  await files.default();
+  await files.default({ module_or_path: wasm });
   return files;
 }

@@ -35,6 +35,7 @@ export const de: Words = {
     badAddress:
       'Die Adresse der Seite nennt ein Modell auf einer anderen Website. So lässt sich nur ein Modell neben der Seite öffnen.',
     notFound: (name) => `${name} liegt nicht neben der Seite.`,
+    unreachable: (name) => `${name} ließ sich nicht laden.`,
   },
   parts: {
     heading: 'Teile auf dem Druckbett',

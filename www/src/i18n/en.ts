@@ -36,6 +36,7 @@ export const en = {
     badAddress:
       'The address of the page names a model on another site. Only a model beside the page can be opened this way.',
     notFound: (name: string) => `${name} was not found beside the page.`,
+    unreachable: (name: string) => `${name} could not be loaded.`,
   },
   parts: {
     heading: 'Parts on the bed',

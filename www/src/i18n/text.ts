@@ -23,7 +23,6 @@ const listeners = new Set<() => void>();
 export function speak(chosen: Language): void {
   language = chosen;
   t = tables[chosen];
-  document.documentElement.lang = chosen;
   for (const listener of listeners) listener();
 }
 

@@ -34,6 +34,7 @@ export const zh: Words = {
     opened: (name) => `已打开 ${name}。`,
     badAddress: '页面地址指向其他网站上的模型。这种方式只能打开与本页面放在一起的模型。',
     notFound: (name) => `在页面旁没有找到 ${name}。`,
+    unreachable: (name) => `无法加载 ${name}。`,
   },
   parts: {
     heading: '打印床上的零件',

@@ -1,7 +1,9 @@
 // The page's end of the print lane: a worker that has the port, or the same module in the page.
+import { startWorker } from '../slicer/start-worker.ts';
 import type { Link } from './link.ts';
 import type { PrintNews, PrintRequest, ToPrintLane } from './messages.ts';
 import type { SerialPortLike } from './port.ts';
+import script from './print.worker.ts?worker&url';
 
 export class PrintLane {
   readonly #module: Promise<WebAssembly.Module>;
@@ -33,8 +35,14 @@ export class PrintLane {
     void this.#worker.then((worker) => worker.postMessage({ request } satisfies ToPrintLane));
   }
 
+  /** Ends the lane at once; the port closes with it. */
+  close(): void {
+    void this.#local?.then((link) => link.handle({ kind: 'close' }));
+    this.#end();
+  }
+
   async #start(): Promise<Worker> {
-    const worker = new Worker(new URL('./print.worker.ts', import.meta.url), { type: 'module' });
+    const worker = startWorker(script);
     worker.onmessage = ({ data }: MessageEvent<PrintNews>) => this.#hear(data);
     worker.onerror = (event) => this.#hear({ kind: 'broken', message: event.message });
     worker.postMessage({ start: await this.#module } satisfies ToPrintLane);

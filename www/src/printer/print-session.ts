@@ -74,6 +74,13 @@ export class PrintSession {
     this.#lane.send({ kind: 'close' });
   }
 
+  /** Ends the link; a job that prints stands as after a closed tab. */
+  close(): void {
+    this.#uploading?.abort();
+    this.#lane.close();
+    this.#vigil.close();
+  }
+
   print(file: PrintFile, begin: Begin = { kind: 'start' }): void {
     this.#wanted = { file, begin };
     this.#store.update({ problem: undefined, doubt: undefined });

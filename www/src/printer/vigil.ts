@@ -3,13 +3,16 @@
 export class Vigil {
   #on = false;
   #lock: WakeLockSentinel | undefined;
+  readonly #end = new AbortController();
 
   constructor() {
+    const { signal } = this.#end;
     // The browser takes the lock away from a hidden page; it is asked for again when the page comes back.
-    document.addEventListener('visibilitychange', () => void this.#ask());
-    addEventListener('beforeunload', (event) => {
+    document.addEventListener('visibilitychange', () => void this.#ask(), { signal });
+    const guard = (event: Event): void => {
       if (this.#on) event.preventDefault();
-    });
+    };
+    addEventListener('beforeunload', guard, { signal });
   }
 
   keep(on: boolean): void {
@@ -17,6 +20,12 @@ export class Vigil {
     this.#on = on;
     if (on) void this.#ask();
     else void this.#lock?.release().catch(() => undefined);
+  }
+
+  /** Watches nothing any more. */
+  close(): void {
+    this.keep(false);
+    this.#end.abort();
   }
 
   /** Refused at low battery, or where there is no such lock: printing goes on all the same. */

@@ -67,6 +67,11 @@ function valuesOf({ settings }: Profile): [string, Value][] {
   return leaves(settings, '');
 }
 
+/** Nested settings as values by path. */
+export function flattened(settings: object): Changes {
+  return Object.fromEntries(leaves(settings, ''));
+}
+
 function leaves(settings: object, path: string): [string, Value][] {
   return Object.entries(settings).flatMap(([name, value]: [string, unknown]): [string, Value][] => {
     const here = path === '' ? name : `${path}.${name}`;

@@ -41,13 +41,13 @@ export class ThreadLane<Q extends Tagged, A extends Tagged> implements Lane<Q, A
   #next = 0;
   #dead: EngineError | undefined;
 
-  constructor(port: Port, module: WebAssembly.Module) {
+  constructor(port: Port, module: WebAssembly.Module, files?: string) {
     this.#port = port;
     port.listen(
       (data) => this.#receive(data as FromLane<A>),
       (reason) => this.#die(laneDied(reason)),
     );
-    this.#post({ start: module }, []);
+    this.#post({ start: module, files }, []);
   }
 
   call<R extends Q>(request: R, transfer: Transferable[] = []): Promise<ReplyTo<A, R['kind']>> {
@@ -128,7 +128,7 @@ export class LocalLane<Q extends Tagged, A extends Tagged> implements Lane<Q, A>
 
 /** The inside of a lane in another thread: starts the engine, then answers requests one after another. */
 export function serve<Q extends Tagged, A extends Tagged>(
-  start: (module: WebAssembly.Module) => Handler<Q, A>,
+  start: (module: WebAssembly.Module, files: string) => Handler<Q, A>,
   post: (message: FromLane<A>, transfer: Transferable[]) => void,
 ): (message: ToLane<Q>) => void {
   let handler: Handler<Q, A> | undefined;
@@ -153,7 +153,7 @@ export function serve<Q extends Tagged, A extends Tagged>(
   return (message) => {
     if ('start' in message) {
       try {
-        handler = start(message.start);
+        handler = start(message.start, message.files ?? '');
       } catch (error) {
         broken = toFailure(error);
       }

@@ -11,9 +11,9 @@ declare const self: DedicatedWorkerGlobalScope;
 watchPanics(console.warn);
 
 const receive = serve<LeadRequest, LeadReply>(
-  (module) => {
+  (module, files) => {
     engine.initSync({ module });
-    const lead = new Lead(engine, loadFiles);
+    const lead = new Lead(engine, () => loadFiles(files));
     return (request) => lead.handle(request);
   },
   (message, transfer) => self.postMessage(message, transfer),

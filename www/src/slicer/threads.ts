@@ -1,16 +1,35 @@
 // The page's lanes: each a worker with an engine of its own; the wasm is compiled once.
 import wasmUrl from '../generated/engine/foothold_bg.wasm?url';
+import filesUrl from '../generated/files/foothold_files_bg.wasm?url';
 import type { HelperReply, HelperRequest, LeadReply, LeadRequest, ViewReply, ViewRequest } from '../messages.ts';
+import viewScript from '../view/view.worker.ts?worker&url';
+import helperScript from './helper.worker.ts?worker&url';
 import { type Lane, type Port, ThreadLane } from './lane.ts';
+import leadScript from './lead.worker.ts?worker&url';
 import type { LaneMaker } from './pool.ts';
+import { startWorker } from './start-worker.ts';
+
+/** Where the module for files of other programs is. */
+export { filesUrl };
 
 /** Engines at work for one job, on a device with so many processors. */
 export function workerCount(processors: number): number {
   return Math.max(1, Math.min(processors, 4));
 }
 
-/** Fetches and compiles the engine; also from a server that calls wasm by another type. */
-export async function compileEngine(): Promise<WebAssembly.Module> {
+let compiled: Promise<WebAssembly.Module> | undefined;
+
+/** Fetches and compiles the engine, once; also from a server that calls wasm by another type. */
+export function compileEngine(): Promise<WebAssembly.Module> {
+  compiled ??= compile();
+  // The next who asks tries again.
+  compiled.catch(() => {
+    compiled = undefined;
+  });
+  return compiled;
+}
+
+async function compile(): Promise<WebAssembly.Module> {
   const response = await fetch(wasmUrl);
   if (!response.ok) throw new Error(`the engine could not be loaded: ${response.status}`);
   return WebAssembly.compile(await response.arrayBuffer());
@@ -18,22 +37,15 @@ export async function compileEngine(): Promise<WebAssembly.Module> {
 
 export function pageLanes(module: WebAssembly.Module): LaneMaker {
   return {
-    lead: () => {
-      const worker = new Worker(new URL('./lead.worker.ts', import.meta.url), { type: 'module' });
-      return new ThreadLane<LeadRequest, LeadReply>(port(worker), module);
-    },
-    helper: () => {
-      const worker = new Worker(new URL('./helper.worker.ts', import.meta.url), { type: 'module' });
-      return new ThreadLane<HelperRequest, HelperReply>(port(worker), module);
-    },
+    lead: () => new ThreadLane<LeadRequest, LeadReply>(port(startWorker(leadScript)), module, filesUrl),
+    helper: () => new ThreadLane<HelperRequest, HelperReply>(port(startWorker(helperScript)), module),
   };
 }
 
 export type ViewLane = Lane<ViewRequest, ViewReply>;
 
 export function viewLane(module: WebAssembly.Module): ViewLane {
-  const worker = new Worker(new URL('../view/view.worker.ts', import.meta.url), { type: 'module' });
-  return new ThreadLane<ViewRequest, ViewReply>(port(worker), module);
+  return new ThreadLane<ViewRequest, ViewReply>(port(startWorker(viewScript)), module);
 }
 
 function port(worker: Worker): Port {

@@ -4,38 +4,50 @@ import { t } from '../i18n/text.ts';
 import type { ModelState } from '../state.ts';
 import { Part } from './part.ts';
 import { problemBox } from './problem-box.ts';
+import { surroundings } from './surroundings.ts';
 
 /** Sends `open-files` and `add-files` with a list of Files. */
 export class DropZone extends Part {
-  static override properties = { model: { attribute: false }, starting: { type: Boolean }, over: { state: true } };
+  static override properties = {
+    model: { attribute: false },
+    starting: { type: Boolean },
+    fixed: { type: Boolean },
+    over: { state: true },
+  };
   declare model: ModelState;
   /** The engine is not there yet. */
   declare starting: boolean;
+  /** Others choose the model. */
+  declare fixed: boolean;
   declare over: boolean;
   #how: 'open' | 'add' = 'open';
+  #deaf: AbortController | undefined;
 
   constructor() {
     super();
     this.model = { kind: 'none' };
     this.starting = false;
+    this.fixed = false;
     this.over = false;
   }
 
   override connectedCallback(): void {
     super.connectedCallback();
-    window.addEventListener('dragover', this.#dragOver);
-    window.addEventListener('dragleave', this.#dragLeave);
-    window.addEventListener('drop', this.#drop);
+    this.#deaf = new AbortController();
+    const { signal } = this.#deaf;
+    const place = surroundings(this);
+    place.addEventListener('dragover', this.#dragOver, { signal });
+    place.addEventListener('dragleave', this.#dragLeave, { signal });
+    place.addEventListener('drop', this.#drop, { signal });
   }
 
   override disconnectedCallback(): void {
     super.disconnectedCallback();
-    window.removeEventListener('dragover', this.#dragOver);
-    window.removeEventListener('dragleave', this.#dragLeave);
-    window.removeEventListener('drop', this.#drop);
+    this.#deaf?.abort();
   }
 
   protected override render(): TemplateResult {
+    if (this.fixed) return html`${this.#facts()}`;
     return html`
       ${this.#facts()}
       <div class="row">
@@ -91,17 +103,20 @@ export class DropZone extends Part {
     if (files != null && files.length > 0) this.tell<readonly File[]>(`${how}-files`, [...files]);
   }
 
-  #dragOver = (event: DragEvent): void => {
-    if (event.dataTransfer?.types.includes('Files') !== true) return;
+  #dragOver = (event: Event): void => {
+    if (this.fixed || !(event instanceof DragEvent) || event.dataTransfer?.types.includes('Files') !== true) return;
     event.preventDefault();
     this.over = true;
   };
 
-  #dragLeave = (event: DragEvent): void => {
-    if (event.relatedTarget === null) this.over = false;
+  #dragLeave = (event: Event): void => {
+    // Within a page's element what is left for is seen only from outside of it.
+    const isOut = event.currentTarget !== window || (event instanceof DragEvent && event.relatedTarget === null);
+    if (isOut) this.over = false;
   };
 
-  #drop = (event: DragEvent): void => {
+  #drop = (event: Event): void => {
+    if (this.fixed || !(event instanceof DragEvent)) return;
     event.preventDefault();
     this.over = false;
     this.#send('open', event.dataTransfer?.files);

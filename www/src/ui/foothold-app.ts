@@ -14,10 +14,12 @@ import './print-step.ts';
 import { problemBox } from './problem-box.ts';
 import './step-bar.ts';
 import { StepPart } from './step-part.ts';
+import { surroundings } from './surroundings.ts';
 import './step-view.ts';
 
-/** The steps there are, in their order. */
+/** The steps there are, in their order; where settings are fixed there is nothing to try out. */
 const steps: readonly Step[] = ['prepare', 'preview', 'print', 'learn'];
+const lockedSteps: readonly Step[] = ['prepare', 'preview', 'print'];
 
 export class FootholdApp extends StepPart {
   static override properties = {
@@ -27,6 +29,7 @@ export class FootholdApp extends StepPart {
   };
   declare painter: Painter | undefined;
   declare printing: PrintSession | undefined;
+  #deaf: AbortController | undefined;
 
   constructor() {
     super();
@@ -36,18 +39,20 @@ export class FootholdApp extends StepPart {
 
   override connectedCallback(): void {
     super.connectedCallback();
-    window.addEventListener('keydown', this.#key);
+    this.#deaf = new AbortController();
+    surroundings(this).addEventListener('keydown', this.#key, { signal: this.#deaf.signal });
   }
 
   override disconnectedCallback(): void {
     super.disconnectedCallback();
-    window.removeEventListener('keydown', this.#key);
+    this.#deaf?.abort();
   }
 
   /** Undo and redo, unless the key belongs to the text that is being typed. */
-  #key = (event: KeyboardEvent): void => {
-    const isTyping =
-      event.target instanceof HTMLElement && event.target.matches('input[type=text], input[type=search], textarea');
+  #key = (event: Event): void => {
+    if (!(event instanceof KeyboardEvent)) return;
+    const [target] = event.composedPath();
+    const isTyping = target instanceof HTMLElement && target.matches('input[type=text], input[type=search], textarea');
     if (!(event.ctrlKey || event.metaKey) || event.altKey || isTyping) return;
     const key = event.key.toLowerCase();
     const redo = key === 'y' || (key === 'z' && event.shiftKey);
@@ -58,39 +63,44 @@ export class FootholdApp extends StepPart {
   };
 
   protected override render(): TemplateResult {
-    const { step, engine, language, dark } = this.state;
+    const { step, engine, language, dark, frame } = this.state;
+    const isPage = frame === 'page';
     return html`
-      <header class="top">
-        <div class="brand">
-          <img src="./icon.svg" alt="" width="28" height="28" />
-          <h1>${t.title}</h1>
-        </div>
+      <div class="top" part="top" role=${isPage ? 'banner' : nothing}>
+        <slot name="brand">
+          <div class="brand" part="brand">${icon} ${isPage ? html`<h1>${t.title}</h1>` : html`<p>${t.title}</p>`}</div>
+        </slot>
         <step-bar
-          .steps=${steps}
+          part="steps"
+          .steps=${frame === 'locked' ? lockedSteps : steps}
           .step=${step}
           @step-change=${({ detail }: CustomEvent<Step>) => this.store?.update({ step: detail })}
         ></step-bar>
         <page-menu
+          part="menu"
           .language=${language}
           .dark=${dark}
           @language-change=${({ detail }: CustomEvent<typeof language>) => this.store?.update({ language: detail })}
           @theme-change=${({ detail }: CustomEvent<ThemeChoice>) => this.store?.update({ theme: detail })}
         ></page-menu>
-      </header>
-      <main class="page ${step === 'learn' ? 'learning' : ''}">
-        <div class="panel" id="panel" role="tabpanel" aria-labelledby="tab-${step}">
+      </div>
+      <div class="page ${step === 'learn' ? 'learning' : ''}" role=${isPage ? 'main' : nothing}>
+        <div class="panel" part="panel" id="panel" role="tabpanel" aria-labelledby="tab-${step}">
+          <slot name="notice"></slot>
           ${typeof engine === 'string' ? nothing : problemBox(engine)}
           <div class="panel-scroll">${this.#panel()}</div>
           ${step === 'learn' ? nothing : this.#job()}
+          <slot name="actions"></slot>
         </div>
         <step-view
+          part="view"
           ?hidden=${step === 'learn'}
           .state=${this.state}
           .store=${this.store}
           .session=${this.session}
           .painter=${this.painter}
         ></step-view>
-      </main>
+      </div>
       <p class="unseen" role="status">${this.#said()}</p>
     `;
   }
@@ -114,6 +124,7 @@ export class FootholdApp extends StepPart {
 
   #job(): TemplateResult {
     return html`<job-bar
+      part="job"
       .job=${this.state.job}
       .ready=${this.state.model.kind === 'open'}
       .done=${this.state.result !== undefined}
@@ -143,5 +154,17 @@ export class FootholdApp extends StepPart {
     return model.kind === 'open' ? t.model.opened(model.source.name) : '';
   }
 }
+
+const icon = html`<svg class="icon" viewBox="0 0 32 32" width="28" height="28" aria-hidden="true">
+  <rect width="32" height="32" rx="7" fill="#0f766e" />
+  <path d="M9 22V8h12v4h-8v3h6v4h-6v3z" fill="#fff" />
+  <path
+    d="M6 25h2.5l1.5-2 1.5 2h2l1.5-2 1.5 2h2l1.5-2 1.5 2H26"
+    fill="none"
+    stroke="#99f6e4"
+    stroke-width="1.6"
+    stroke-linejoin="round"
+  />
+</svg>`;
 
 customElements.define('foothold-app', FootholdApp);

@@ -36,6 +36,7 @@ export class JobBar extends Part {
           <button
             type="button"
             class="button ${this.done && !this.stale ? '' : 'primary'}"
+            part="button slice"
             aria-disabled=${!this.ready || running}
             @click=${() => this.ready && !running && this.tell('slice')}
           >
@@ -49,13 +50,14 @@ export class JobBar extends Part {
   }
 
   #cancel(): TemplateResult {
-    return html`<button type="button" class="button" @click=${() => this.tell('cancel')}>${t.job.cancel}</button>`;
+    return html`<button type="button" class="button" part="button cancel" @click=${() => this.tell('cancel')}>${t.job.cancel}</button>`;
   }
 
   #download(): TemplateResult {
     return html`<button
       type="button"
       class="button ${this.done && !this.stale ? 'primary' : ''}"
+      part="button download"
       aria-disabled=${!this.done}
       @click=${() => this.done && this.tell('download')}
     >

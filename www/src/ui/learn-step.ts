@@ -46,7 +46,7 @@ export class LearnStep extends StepPart {
   override disconnectedCallback(): void {
     super.disconnectedCallback();
     this.#room.disconnect();
-    history.replaceState(history.state, '', withoutPlace(location.href));
+    if (this.state.frame === 'page') history.replaceState(history.state, '', withoutPlace(location.href));
   }
 
   protected override willUpdate(): void {
@@ -65,7 +65,9 @@ export class LearnStep extends StepPart {
   protected override updated(): void {
     const stage = this.querySelector('.lesson-pictures');
     if (stage !== null) this.#room.observe(stage);
-    const { place, changes } = this.state;
+    const { place, changes, frame } = this.state;
+    // Another site's address is its own.
+    if (frame !== 'page') return;
     const address = addressOf(location.href, place, changes);
     if (address !== location.href) history.replaceState(history.state, '', address);
   }
@@ -146,19 +148,27 @@ export class LearnStep extends StepPart {
   }
 
   #change(): TemplateResult {
-    const { place, model } = this.state;
+    const { place } = this.state;
     const words = t.panels.learn;
     return html`
       <h3>${words.change}</h3>
       <div class="knobs">
         ${this.#where()} ${knobs[place.lesson].map((knob) => this.#knob(knob))}
       </div>
+      ${this.state.frame === 'page' ? this.#link() : nothing}
+      <p class="hint source">${words.source[place.lesson]}</p>
+    `;
+  }
+
+  #link(): TemplateResult {
+    const { model } = this.state;
+    const words = t.panels.learn;
+    return html`
       <div class="row">
         <button type="button" class="button" @click=${() => void this.#copy()}>${words.link}</button>
         ${this.copied ? html`<span class="hint" role="status">${words.copied}</span>` : nothing}
       </div>
       ${model.kind === 'open' && model.source.name !== linkedModel() ? html`<p class="hint">${words.ownModel}</p>` : nothing}
-      <p class="hint source">${words.source[place.lesson]}</p>
     `;
   }
 

@@ -1,5 +1,5 @@
 // What the page's elements have in common: they draw into the page itself, so that one stylesheet fits all,
-// and draw anew when the language changes.
+// and draw anew when the language changes. They set styles as properties, since a strict policy refuses attributes.
 import { LitElement } from 'lit';
 import { onLanguage } from '../i18n/text.ts';
 

@@ -3,7 +3,7 @@ import { html, nothing, type TemplateResult } from 'lit';
 import settingsSchema from '../../../schema/settings.schema.json';
 import { t } from '../i18n/text.ts';
 import type { Edit, ModelSource } from '../messages.ts';
-import { chosenIn, withProfile } from '../profiles/choice.ts';
+import { chosenIn, offered, withProfile } from '../profiles/choice.ts';
 import { withChange } from '../settings/changes.ts';
 import type { Schema } from '../settings/fields.ts';
 import { roomOf } from '../settings/room.ts';
@@ -14,8 +14,7 @@ import './orientation-panel.ts';
 import './part-list.ts';
 import './plane-panel.ts';
 import { problemBox } from './problem-box.ts';
-import type { ProfileChange } from './profile-chooser.ts';
-import './profile-chooser.ts';
+import { nameOf, type ProfileChange } from './profile-chooser.ts';
 import './settings-form.ts';
 import './zone-panel.ts';
 import type { SettingChange } from './settings-form.ts';
@@ -25,7 +24,8 @@ export class PrepareStep extends StepPart {
   readonly #canLay = canDrawSpace();
 
   protected override render(): TemplateResult {
-    const { model, engine, changes, settingsNotes } = this.state;
+    const { model, engine, changes, settingsNotes, frame } = this.state;
+    if (frame === 'locked') return this.#locked();
     return html`
       <section class="card" aria-labelledby="model-heading">
         <div class="row spread">
@@ -59,6 +59,25 @@ export class PrepareStep extends StepPart {
         @settings-export=${() => this.session?.exportSettings()}
         @settings-reset=${() => this.store?.update({ changes: {} })}
       ></settings-form>
+    `;
+  }
+
+  /** The model, and what it is printed with, where another site has chosen both. */
+  #locked(): TemplateResult {
+    const { model, engine, changes } = this.state;
+    const chosen = chosenIn(changes);
+    const rows = (['printer', 'material', 'quality'] as const).flatMap((kind) => {
+      const found = offered[kind].find(({ id }) => id === chosen[kind]);
+      return found === undefined ? [] : [html`<div><dt>${t.profiles[kind]}</dt><dd>${nameOf(found)}</dd></div>`];
+    });
+    return html`
+      <section class="card" aria-labelledby="model-heading">
+        <h2 id="model-heading">${t.model.heading}</h2>
+        ${model.kind === 'open' ? html`<p class="model-name">${model.source.name}</p>` : nothing}
+        ${model.kind === 'open' ? html`<p class="facts">${t.format.size(model.facts.size)}</p>` : nothing}
+        <drop-zone fixed .model=${model} .starting=${engine === 'starting'}></drop-zone>
+        ${rows.length === 0 ? nothing : html`<dl class="fixed">${rows}</dl>`}
+      </section>
     `;
   }
 

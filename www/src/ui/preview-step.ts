@@ -11,13 +11,14 @@ const MOST_BARS = 120;
 
 export class PreviewStep extends StepPart {
   protected override render(): TemplateResult {
-    const { result, legend, roles, hidden, colourBy, flat } = this.state;
+    const { result, legend, roles, hidden, colourBy, flat, frame } = this.state;
     return html`
       <result-figures
         .report=${result?.report}
         .legend=${legend}
         .roles=${roles}
         .leftOut=${hidden}
+        .fixing=${frame !== 'locked'}
         .filtering=${!flat && colourBy === 'role'}
         .colours=${flat ? nothing : this.#colours()}
         @layer-change=${({ detail }: CustomEvent<number>) => this.session?.showLayer(detail)}
@@ -85,7 +86,7 @@ function scaleOf(by: Exclude<ColourBy, 'role' | 'tool'>, [low, high]: readonly [
   const stops = Array.from({ length: 9 }, (_, k) => scaleColour(k / 8)).join(', ');
   return html`<div class="colour-scale">
     <span>${t.format.number(low, 2)}</span>
-    <i style="background:linear-gradient(to right, ${stops})" aria-hidden="true"></i>
+    <i .style=${`background:linear-gradient(to right, ${stops})`} aria-hidden="true"></i>
     <span>${t.format.number(high, 2)} ${t.view.units[by]}</span>
   </div>`;
 }

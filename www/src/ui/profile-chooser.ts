@@ -58,7 +58,7 @@ export class ProfileChooser extends Part {
 }
 
 /** With its maker's name, if it is a printer. */
-function nameOf({ id, name }: Profile): string {
+export function nameOf({ id, name }: Profile): string {
   const vendor = printers.find((it) => it.id === id)?.vendor;
   return vendor === undefined ? name : `${vendor} ${name}`;
 }

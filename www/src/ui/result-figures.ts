@@ -30,6 +30,7 @@ export class ResultFigures extends Part {
     roles: { attribute: false },
     leftOut: { attribute: false },
     filtering: { attribute: false },
+    fixing: { attribute: false },
     colours: { attribute: false },
   };
   declare report: Report | undefined;
@@ -40,6 +41,8 @@ export class ResultFigures extends Part {
   declare leftOut: ReadonlySet<string>;
   /** The picture can leave roles out. */
   declare filtering: boolean;
+  /** Settings can be changed to what a remark proposes. */
+  declare fixing: boolean;
   /** What stands above the colours: by what they are chosen. */
   declare colours: TemplateResult | typeof nothing;
 
@@ -50,6 +53,7 @@ export class ResultFigures extends Part {
     this.roles = [];
     this.leftOut = new Set();
     this.filtering = false;
+    this.fixing = true;
     this.colours = nothing;
   }
 
@@ -122,7 +126,7 @@ export class ResultFigures extends Part {
 
   /** A role's name with its colour; as a switch where the picture can leave it out. */
   #name(label: string, colour: string | undefined, roles: readonly string[]): TemplateResult {
-    const swatch = html`<i class="swatch" style=${colour === undefined ? '' : `background:${colour}`} aria-hidden="true"></i>`;
+    const swatch = html`<i class="swatch" .style=${colour === undefined ? '' : `background:${colour}`} aria-hidden="true"></i>`;
     if (!this.filtering) return html`${swatch}${label}`;
     const shown = !roles.some((role) => this.leftOut.has(role));
     return html`<label class="role"
@@ -171,7 +175,7 @@ export class ResultFigures extends Part {
 
   /** What would mend it, at one press. */
   #fix({ fix = [] }: Remark): TemplateResult | typeof nothing {
-    if (fix.length === 0) return nothing;
+    if (fix.length === 0 || !this.fixing) return nothing;
     return html`<button type="button" class="link" @click=${() => this.tell<readonly string[]>('fix', fix)}>
       ${t.figures.fix(fix.join(', '))}
     </button>`;

@@ -28,6 +28,7 @@ export class StepBar extends Part {
       type="button"
       role="tab"
       id="tab-${step}"
+      part="step step-${step}"
       aria-selected=${chosen}
       aria-controls="panel"
       tabindex=${chosen ? 0 : -1}

@@ -54,7 +54,7 @@ export class TemperatureChart extends PrintPart {
           ${heaters.map((heater) => {
             const reading = heater.of(temperatures);
             return html`<tr>
-              <th scope="row"><span class="swatch" style="background:${heater.color}"></span>${heater.name}</th>
+              <th scope="row"><span class="swatch" .style=${`background:${heater.color}`}></span>${heater.name}</th>
               <td>${degrees(reading?.now)}</td>
               <td>${reading?.target === 0 ? words.off : degrees(reading?.target)}</td>
             </tr>`;
@@ -134,8 +134,8 @@ function chart(heaters: readonly Heater[], samples: readonly Sample[]): Template
     ${[0, top / 2].map((value) => svg`<line class="grid" x1="0" x2=${WIDTH} y1=${y(value)} y2=${y(value)} />`)}
     ${heaters.map(
       (it) => svg`
-        <polyline class="wanted" style="stroke:${it.color}" points=${line((now) => it.of(now)?.target)} />
-        <polyline style="stroke:${it.color}" points=${line((now) => it.of(now)?.now)} />`,
+        <polyline class="wanted" .style=${`stroke:${it.color}`} points=${line((now) => it.of(now)?.target)} />
+        <polyline .style=${`stroke:${it.color}`} points=${line((now) => it.of(now)?.now)} />`,
     )}
   </svg>
   <p class="hint heat-axis" aria-hidden="true"><span>0–${top} °C</span><span>${t.printing.temperature.span(minutes)}</span></p>`;

@@ -152,7 +152,17 @@ export class SpaceView extends Element {
 
   #marker({ text }: Marker, spot: Spot | undefined): TemplateResult | typeof nothing {
     if (spot === undefined) return nothing;
-    return html`<span class="marker" style="left:${spot.x}px;top:${spot.y}px" title=${text} role="img" aria-label=${text}>!</span>`;
+    return html`<span class="marker" .style=${`left:${spot.x}px;top:${spot.y}px`} title=${text} role="img" aria-label=${text}>!</span>`;
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    // An element that is only moved in its page is there again at once.
+    queueMicrotask(() => {
+      if (this.isConnected) return;
+      this.#stage?.dispose();
+      this.#stage = undefined;
+    });
   }
 
   protected override firstUpdated(): void {
@@ -172,6 +182,7 @@ export class SpaceView extends Element {
   async #start(canvas: HTMLCanvasElement): Promise<void> {
     try {
       const { Stage } = await import('./stage.ts');
+      if (!this.isConnected) return;
       this.#stage = new Stage(canvas, () => this.tell('no-space'));
       this.#stage.resize(this.#size, devicePixelRatio);
       this.requestUpdate();

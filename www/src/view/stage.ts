@@ -272,10 +272,13 @@ export class Stage {
     });
   }
 
+  /** Gives everything back; nothing is drawn any more. */
   dispose(): void {
+    this.#orbit = undefined;
     this.forget();
     this.#beads.clear();
     this.#renderer.dispose();
+    this.#renderer.forceContextLoss();
   }
 
   #aim({ x, y }: Spot): void {

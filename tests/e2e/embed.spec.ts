@@ -1,0 +1,140 @@
+// <foothold-slicer> in the example of a host page: another origin, a strict policy, a sub-path, no special headers.
+import { mkdirSync, readFileSync } from 'node:fs';
+import path from 'node:path';
+import { type Page, test as plain } from '@playwright/test';
+import { embedExample } from '../../scripts/embed.mjs';
+import { foothold } from '../node/command.ts';
+import { expect, sliceButton } from './page.ts';
+
+const sample = new URL('../../www/public/sample.stl', import.meta.url).pathname;
+
+interface Example {
+  readonly element: { readonly origin: string; readonly asked: string[] };
+  readonly host: { readonly origin: string; readonly asked: string[] };
+  readonly address: string;
+}
+
+/** The example, whose page must not complain nor break its policy, in a page or in a worker. */
+const test = plain.extend<{ example: Example }>({
+  // biome-ignore lint/correctness/noEmptyPattern: Playwright wants the pattern
+  example: async ({}, use) => {
+    const example = await embedExample();
+    await use(example);
+    await example.close();
+  },
+  page: async ({ page }, use) => {
+    const complaints: string[] = [];
+    page.on('console', (message) => {
+      if (message.type() === 'error') complaints.push(message.text());
+    });
+    page.on('pageerror', (error) => complaints.push(String(error)));
+    await page.addInitScript(() => {
+      addEventListener('securitypolicyviolation', ({ violatedDirective, blockedURI }) =>
+        console.error(`security policy: ${violatedDirective} ${blockedURI}`),
+      );
+    });
+    await use(page);
+    expect(complaints).toEqual([]);
+  },
+});
+
+const report = (page: Page) =>
+  page.evaluate(async () => {
+    const slicer = document.querySelector('foothold-slicer') as HTMLElement & { slice(): Promise<object> };
+    return slicer.slice();
+  });
+
+/** The text of an element's G-code. */
+const gcodeOf = (page: Page, at = 0) =>
+  page.evaluate(async (k) => {
+    const slicer = document.querySelectorAll('foothold-slicer')[k] as HTMLElement & { gcode(): File | undefined };
+    const file = slicer.gcode();
+    return file && { name: file.name, text: await file.text() };
+  }, at);
+
+test('the example: a price from the report, the bytes of the command line, nothing asked for but the model', async ({
+  page,
+  example,
+}, { outputDir }) => {
+  await page.goto(example.address);
+  await expect(page.getByText('bracket.stl', { exact: true })).toBeVisible();
+  await expect(page.getByText('Creality Ender-3', { exact: true })).toBeVisible();
+  await expect(page.getByRole('button', { name: 'Open model' })).toHaveCount(0);
+  await expect(page.getByLabel('Layer height')).toHaveCount(0);
+  await sliceButton(page).click();
+  await expect(page.getByRole('button', { name: 'Order' })).toBeEnabled({ timeout: 60_000 });
+  await expect(page.locator('.quote output')).toHaveText(/^\d+\.\d\d € for \d+\.\d g of PETG$/);
+
+  const got = await gcodeOf(page);
+  mkdirSync(outputDir, { recursive: true });
+  const words = ['slice', sample, '-o', 'shop.gcode', '--printer', 'ender3', '--material', 'petg'];
+  expect(await foothold(words, outputDir)).toMatchObject({ code: 0, err: '' });
+  const same = readFileSync(path.join(outputDir, 'shop.gcode'), 'utf8') === got?.text;
+  expect(same, 'the bytes of the command line').toBe(true);
+
+  // The host is asked for its own files and the model; the element's host for parts of the element.
+  expect(new Set(example.host.asked)).toEqual(
+    new Set(['', 'shop.css', 'shop.js', 'icon.svg', 'bracket.stl'].map((name) => `/shop/parts/${name}`)),
+  );
+  expect(example.element.asked.filter((it) => !/^\/(foothold-slicer\.js|assets\/[^/]+\.(js|wasm))$/.test(it))).toEqual(
+    [],
+  );
+  const kept = await page.evaluate(async () => [
+    localStorage.length,
+    (await indexedDB.databases()).map((it) => it.name),
+  ]);
+  expect(kept).toEqual([0, ['foothold-print']]);
+});
+
+test('several on a page do not disturb each other, and one that is removed frees its workers', async ({
+  page,
+  example,
+}) => {
+  await page.goto(example.address);
+  await report(page);
+  const first = await gcodeOf(page);
+  const before = page.workers().length;
+  const errors = await page.evaluate(async () => {
+    const second = document.createElement('foothold-slicer') as HTMLElement & {
+      settings: object;
+      load(file: Blob): Promise<void>;
+      slice(): Promise<{ layers: number }>;
+    };
+    const found: string[] = [];
+    second.addEventListener('foothold-error', (event) => {
+      const { name, message } = (event as CustomEvent<{ name: string; message: string }>).detail;
+      found.push(`${name}: ${message}`);
+    });
+    document.querySelector('main')?.append(second);
+    await second.load(new File(['solid nothing'], 'broken.stl')).catch((error: Error) => found.push(error.name));
+    second.setAttribute('printer', 'nobody');
+    await second.load(new File([''], 'empty.stl')).catch((error: Error) => found.push(error.name));
+    second.setAttribute('printer', 'mini');
+    second.settings = { layers: { height: 0.3 } };
+    await second.load(await (await fetch('bracket.stl')).blob());
+    found.push(String((await second.slice()).layers));
+    return found;
+  });
+  expect(errors[0]).toMatch(/^ModelError: /);
+  expect(errors[1]).toBe('ModelError');
+  expect(errors[2]).toMatch(/^SettingsError: there is no printer "nobody"/);
+  expect(errors.at(-1)).toBe('160');
+  const second = await gcodeOf(page, 1);
+  expect(second?.text).toContain('layers.height = 0.3');
+  expect(await gcodeOf(page)).toEqual(first);
+
+  // Undo in one is not undo in the other, and keys outside are the host's.
+  await page.keyboard.press('Control+z');
+  expect(await gcodeOf(page)).toEqual(first);
+
+  await page.evaluate(() => document.querySelectorAll('foothold-slicer')[1]?.remove());
+  await expect.poll(() => page.workers().length).toBe(before);
+  await page.evaluate(() => {
+    const slicer = document.querySelector('foothold-slicer');
+    // Moved, it goes on as it was.
+    if (slicer !== null) document.querySelector('footer')?.append(slicer);
+  });
+  expect(await gcodeOf(page)).toEqual(first);
+  await page.evaluate(() => document.querySelector('foothold-slicer')?.remove());
+  await expect.poll(() => page.workers().length).toBe(0);
+});
