@@ -31,6 +31,7 @@ pub mod printer;
 pub mod region;
 pub mod settings;
 pub mod slice;
+mod sort;
 pub mod support;
 pub mod toolpath;
 pub mod view;

@@ -3,6 +3,7 @@
 use super::segments::{Segment, Segments};
 use crate::polygon::measure::Bounds;
 use crate::polygon::{Contour, DVec2};
+use crate::sort::StableSort;
 
 /// For each contour, the length of it that lies within `reach` mm of a line, mm. Exact: each edge is
 /// cut with the rounded strip around each line.
@@ -65,7 +66,7 @@ fn within(start: f64, step: f64, low: f64, high: f64) -> Option<(f64, f64)> {
 }
 
 fn united_length(intervals: &mut [(f64, f64)]) -> f64 {
-    intervals.sort_by(|x, y| x.0.total_cmp(&y.0));
+    intervals.stable_sort_by(|x, y| x.0.total_cmp(&y.0));
     let (mut length, mut end) = (0.0, f64::NEG_INFINITY);
     for &(from, to) in intervals.iter() {
         length += (to - from.max(end)).max(0.0);

@@ -9,6 +9,7 @@ use crate::polygon::simplify::simplify_ring;
 use crate::polygon::trig::sin_cos;
 use crate::polygon::{Contour, DVec2, Join, Polygon, PolygonSet, dvec2};
 use crate::region::{Path, Role};
+use crate::sort::StableSort;
 
 /// Corners are looked for on an outline simplified to this, mm, so that a rounded corner of a
 /// fraction of a line counts as one.
@@ -50,7 +51,7 @@ pub(super) fn brim(first: &FirstLayer, ground: &Ground, options: &BrimOptions) -
         }
         loops = cut_to_ears(loops, &ears);
     }
-    loops.sort_by_key(|l| (l.home, std::cmp::Reverse(l.level)));
+    loops.stable_sort_by_key(|l| (l.home, std::cmp::Reverse(l.level)));
     let bed = first.bed.grown(-options.line_width / 2.0);
     let off_bed = loops.iter().flat_map(|l| &l.line.points).find(|&&p| p.clamp(bed.min, bed.max) != p);
     if let Some(&at) = off_bed {

@@ -2,6 +2,7 @@
 
 use crate::polygon::measure::Bounds;
 use crate::polygon::{DVec2, PolygonSet, by_x_then_y};
+use crate::sort::StableSort;
 
 /// A line, closed or open; a closed one does not repeat its first point.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +52,7 @@ pub(super) fn to_area(line: Line, area: &PolygonSet) -> Vec<Line> {
     if kept > length(&points) - GRID_SLACK_MM * points.len() as f64 {
         return vec![line];
     }
-    pieces.sort_by(|p, q| by_x_then_y(p[0], q[0]));
+    pieces.stable_sort_by(|p, q| by_x_then_y(p[0], q[0]));
     joined(pieces, line.closed)
 }
 

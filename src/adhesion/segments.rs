@@ -3,6 +3,7 @@
 use crate::polygon::measure::Bounds;
 use crate::polygon::simplify::closest_on_segment;
 use crate::polygon::{Contour, DVec2, dvec2};
+use crate::sort::StableSort;
 
 /// At most this many cells per segment, so that a long thin scene does not fill the memory.
 const CELLS_PER_SEGMENT: f64 = 16.0;
@@ -88,7 +89,7 @@ impl Segments {
             }
         });
         // A segment that lies in several cells was met several times.
-        found.sort_by(|x, y| x.2.total_cmp(&y.2));
+        found.stable_sort_by(|x, y| x.2.total_cmp(&y.2));
         found.dedup();
         found.into_iter().map(|(_, _, share)| share).collect()
     }

@@ -7,6 +7,7 @@ use super::options::SkirtOptions;
 use super::{FirstLayer, Foundation};
 use crate::polygon::{Contour, DVec2, Join, PolygonSet, by_x_then_y};
 use crate::region::{Path, Role};
+use crate::sort::StableSort;
 
 /// The minimum length adds no more loops than this.
 const MOST_LOOPS: u32 = 100;
@@ -50,7 +51,7 @@ pub(super) fn skirt(first: &FirstLayer, ground: &Ground, options: &SkirtOptions)
 /// Smallest convex ring around all points, counter-clockwise (monotone chain, Andrew 1979).
 fn convex_hull(contours: &[Contour]) -> Contour {
     let mut points: Vec<DVec2> = contours.iter().flat_map(|c| &c.points).copied().collect();
-    points.sort_by(|&p, &q| by_x_then_y(p, q));
+    points.stable_sort_by(|&p, &q| by_x_then_y(p, q));
     points.dedup();
     let lower = half_hull(points.iter().copied());
     let upper = half_hull(points.iter().rev().copied());

@@ -8,6 +8,7 @@
 use super::Mesh;
 use super::repair::Bodies;
 use super::topology::{Topology, start};
+use crate::sort::StableSort;
 use glam::{DVec3, Vec3, dvec3};
 
 /// How many triangles and bodies were turned.
@@ -122,7 +123,9 @@ fn border_centres(mesh: &Mesh, topology: &Topology, bodies: &Bodies) -> Vec<DVec
 /// the whole file is inside out and this is the wall of a cavity.
 fn decide(measures: &[Measure], winding: &[Vec<Sample>]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..measures.len()).collect();
-    order.sort_by(|&a, &b| measures[b].box_volume().total_cmp(&measures[a].box_volume()).then(a.cmp(&b)));
+    order.stable_sort_by(|&a, &b| {
+        measures[b].box_volume().total_cmp(&measures[a].box_volume()).then(a.cmp(&b))
+    });
     let mut inside_out = vec![None; measures.len()];
     for body in order {
         let own = &measures[body];
@@ -196,7 +199,7 @@ const SAMPLES: usize = 7;
 /// For every body, samples of the other bodies around the centres of some of its triangles.
 fn winding(mesh: &Mesh, bodies: &Bodies, turned: &[bool], measures: &[Measure]) -> Vec<Vec<Sample>> {
     let mut points = sample_points(mesh, bodies, measures);
-    points.sort_by(|a, b| a.at.x.total_cmp(&b.at.x).then(a.body.cmp(&b.body)));
+    points.stable_sort_by(|a, b| a.at.x.total_cmp(&b.at.x).then(a.body.cmp(&b.body)));
     for (t, &body) in bodies.of.iter().enumerate() {
         let [a, b, c] = mesh.corners(t).map(Vec3::as_dvec3);
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));

@@ -8,6 +8,7 @@ use glam::DVec3;
 
 use super::direction::{Direction, six};
 use crate::mesh::Mesh;
+use crate::sort::StableSort;
 
 /// Faces whose normals differ by less than this count as one, degrees; also from the six axes.
 pub const MERGE_DEG: f64 = 1.0;
@@ -50,9 +51,9 @@ pub fn directions(mesh: &Mesh, count: usize) -> Vec<Direction> {
     let ups = sides.iter().map(|side| -side.normal).filter(|&up| !is_axis(up));
     let mut rated: Vec<(usize, DVec3, f64)> =
         ups.enumerate().map(|(place, up)| (place, up, overhang_sum(mesh, up))).collect();
-    rated.sort_by(|a, b| a.2.total_cmp(&b.2).then(a.0.cmp(&b.0)));
+    rated.stable_sort_by(|a, b| a.2.total_cmp(&b.2).then(a.0.cmp(&b.0)));
     rated.truncate(count);
-    rated.sort_by_key(|&(place, ..)| place);
+    rated.stable_sort_by_key(|&(place, ..)| place);
     let numbered = rated.into_iter().zip(7..);
     numbered.map(|((_, up, _), id)| Direction { id, up: up.to_array() }).collect()
 }
@@ -74,7 +75,7 @@ pub fn overhang_sum(mesh: &Mesh, up: DVec3) -> f64 {
 /// Sides with nearly the same normal become one, which keeps the largest one's normal; largest
 /// first.
 fn merged(mut sides: Vec<Side>) -> Vec<Side> {
-    sides.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
+    sides.stable_sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
     sides.truncate(LARGEST_MERGED);
     let mut found: Vec<Side> = Vec::new();
     for side in sides {
@@ -83,14 +84,14 @@ fn merged(mut sides: Vec<Side>) -> Vec<Side> {
             None => found.push(side),
         }
     }
-    found.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
+    found.stable_sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
     found
 }
 
 /// The triangles of the convex hull; none when the vertices lie in a plane.
 pub fn triangles(mesh: &Mesh) -> Vec<Side> {
     let mut points: Vec<DVec3> = mesh.vertices.iter().map(|v| v.as_dvec3()).collect();
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
+    points.stable_sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
     points.dedup();
     let Some(mut hull) = Hull::of_tetrahedron(&points) else { return Vec::new() };
     while let Some(face) = hull.open.pop() {

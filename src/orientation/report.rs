@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::evaluate::DirectionFigures;
 use super::net::{DIRECTIONS, Net, ScaledVolumes};
 use super::{Candidates, OrientationError, OrientationOptions, exact};
+use crate::sort::StableSort;
 
 /// The directions with their figures, and the choice; the object `orientation` of a report.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -65,7 +66,7 @@ fn choose_with(
     mut figures: Vec<DirectionFigures>,
     options: &OrientationOptions,
 ) -> Result<OrientationReport, OrientationError> {
-    figures.sort_by_key(|f| f.id);
+    figures.stable_sort_by_key(|f| f.id);
     let bad = |f: &&DirectionFigures| ![f.support_mm3, f.base_mm3, f.total_mm3].iter().all(|v| v.is_finite());
     if let Some(found) = figures.iter().find(bad) {
         return Err(OrientationError::BadFigures { id: found.id });

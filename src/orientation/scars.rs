@@ -6,6 +6,7 @@ use super::layers::LayerStack;
 use crate::mesh::Mesh;
 use crate::polygon::{DVec2, PolygonSet, dvec2};
 use crate::region::overhang::Strips;
+use crate::sort::StableSort;
 
 /// Facets are looked at in patches of about this area, mm2, each touched wholly or not at all.
 const PATCH_MM2: f64 = 1.0;
@@ -41,7 +42,7 @@ impl Scars {
                 add_facet(corners, normal, stack, &mut patches);
             }
         }
-        patches.sort_by_key(|patch| patch.run);
+        patches.stable_sort_by_key(|patch| patch.run);
         Scars { patches, touched_mm2: 0.0 }
     }
 

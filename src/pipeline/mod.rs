@@ -44,6 +44,7 @@ use crate::region::{Bead, Path};
 use crate::settings::Settings;
 use crate::slice::heights::plan_layers_of;
 use crate::slice::{Axis, LayerOptions, LayerSpec, slice_mesh};
+use crate::sort::StableSort;
 use crate::support::{
     SupportError, SupportInput, SupportMethod, SupportOptions, SupportWarning, Supports, check_options,
     plan_supports,
@@ -491,7 +492,7 @@ impl Job {
         let joined = join(&summaries, &options, &notes).map_err(JobError::Gcode)?;
         self.timing.gcode += clock() - started;
         self.timing.total = clock() - self.started_ms + self.timing.parse;
-        self.warnings.sort_by_key(|w| w.layer);
+        self.warnings.stable_sort_by_key(|w| w.layer);
         let report = self.report(&joined);
         let file_name = self.file_name(report.time_s);
         let layer_times_s = summaries.iter().map(|s| s.time_s).collect();

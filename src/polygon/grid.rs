@@ -3,6 +3,7 @@
 use super::measure::Bounds;
 use super::simplify::closest_on_segment;
 use super::{DVec2, dvec2};
+use crate::sort::StableSort;
 
 /// Square cells over a box, numbered row by row.
 #[derive(Debug, Clone)]
@@ -175,7 +176,7 @@ impl EdgeGrid {
                 found.extend(crossing_at(a, b, c, d).map(|t| (t, index as usize)));
             }
         }
-        found.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+        found.stable_sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
         // An edge is met in each cell that both touch.
         found.dedup();
         found

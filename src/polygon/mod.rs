@@ -14,6 +14,7 @@ pub mod raycast;
 pub mod simplify;
 pub mod trig;
 
+use crate::sort::StableSort;
 pub use glam::{DVec2, dvec2};
 pub use offset::Join;
 
@@ -111,7 +112,7 @@ impl PolygonSet {
         for contour in &mut contours {
             contour.start_at_smallest();
         }
-        contours.sort_by(compare_contours);
+        contours.stable_sort_by(compare_contours);
         PolygonSet { contours }
     }
 

@@ -8,6 +8,7 @@ use super::overhang::Strips;
 use crate::polygon::measure::Bounds;
 use crate::polygon::trig::sin_cos;
 use crate::polygon::{DVec2, Join, Polygon, PolygonSet};
+use crate::sort::StableSort;
 
 /// Directions tried besides those of the piece's own edges.
 const EVEN_DIRECTIONS: u32 = 12;
@@ -69,7 +70,7 @@ fn bridging_direction(piece: &Polygon, ground: &Strips, bead_width: f64) -> Opti
 fn directions(piece: &Polygon) -> Vec<DVec2> {
     let contours = std::iter::once(&piece.outer).chain(&piece.holes);
     let mut edges: Vec<DVec2> = contours.flat_map(|c| c.edges().map(|(a, b)| b - a)).collect();
-    edges.sort_by(|a, b| b.length_squared().total_cmp(&a.length_squared()));
+    edges.stable_sort_by(|a, b| b.length_squared().total_cmp(&a.length_squared()));
     edges.truncate(EDGES_TRIED);
     let along = edges.iter().map(|e| e.normalize_or(DVec2::X));
     let even = (0..EVEN_DIRECTIONS).map(|i| {

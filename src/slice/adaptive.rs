@@ -12,6 +12,7 @@
 use super::LayerOptions;
 use super::heights::LayerSpec;
 use crate::mesh::Mesh;
+use crate::sort::StableSort;
 use glam::DVec3;
 
 /// Step of heights, mm.
@@ -66,7 +67,7 @@ impl Limits {
             [options.min_height, options.max_height, options.max_height_change].map(|l| steps(l).max(1));
         let count = ((part_height - options.first_height).max(0.0) / STEP).ceil() as usize;
         let mut slopes = slopes_of(mesh, options, most);
-        slopes.sort_by_key(|s| s.allowed);
+        slopes.stable_sort_by_key(|s| s.allowed);
         let mut limits = Limits { allowed: vec![most; count], least, most: most.max(least), change };
         limits.paint(&slopes);
         limits.smooth();

@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::section::{EdgeKey, Segment};
 use crate::polygon::by_x_then_y;
+use crate::sort::StableSort;
 
 /// A closed loop of a section, before shells are united.
 #[derive(Debug, Clone, PartialEq)]
@@ -177,7 +178,7 @@ fn link_nearest_first(chains: &[Chain]) -> Vec<usize> {
     let n = chains.len();
     let distance = |&(i, j): &(usize, usize)| chains[i].end().distance_squared(chains[j].start());
     let mut pairs: Vec<(usize, usize)> = (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).collect();
-    pairs.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+    pairs.stable_sort_by(|a, b| distance(a).total_cmp(&distance(b)));
     let (mut successors, mut taken) = (vec![None; n], vec![false; n]);
     for (i, j) in pairs {
         if successors[i].is_none() && !taken[j] {
@@ -192,7 +193,7 @@ fn link_nearest_first(chains: &[Chain]) -> Vec<usize> {
 /// For each chain the nearest start that is still free, chain after chain. A permutation.
 fn link_in_turn(chains: &[Chain]) -> Vec<usize> {
     let mut free: Vec<usize> = (0..chains.len()).collect();
-    free.sort_by(|&a, &b| by_x_then_y(chains[a].start(), chains[b].start()).then(a.cmp(&b)));
+    free.stable_sort_by(|&a, &b| by_x_then_y(chains[a].start(), chains[b].start()).then(a.cmp(&b)));
     let take_nearest = |chain: &Chain| free.remove(nearest_by_x(chains, &free, chain.end()));
     chains.iter().map(take_nearest).collect()
 }

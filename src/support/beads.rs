@@ -12,6 +12,7 @@ use super::spans::{self, Span};
 use crate::polygon::Contour;
 use crate::region::{Path, Role};
 use crate::slice::Axis;
+use crate::sort::StableSort;
 
 /// Shorter centre lines, mm, are not worth a stop of the nozzle.
 const SHORTEST_MM: f64 = 0.05;
@@ -91,7 +92,7 @@ fn lines_of(plates: &[Plate], axis: Axis, k: usize) -> Lines {
     let of_axis = plates.iter().filter(|p| p.axis == axis).flat_map(|p| &p.lines);
     let mut lines: Lines =
         of_axis.filter(|l| !l.beads[k].is_empty()).map(|l| (l.at, l.beads[k].clone())).collect();
-    lines.sort_by(|a, b| a.0.total_cmp(&b.0));
+    lines.stable_sort_by(|a, b| a.0.total_cmp(&b.0));
     lines
 }
 
@@ -131,7 +132,7 @@ fn with_feet(frame: &Frame, plates: &[Plate], axis: Axis, mut lines: Lines) -> L
             }
         }
     }
-    lines.sort_by(|a, b| a.0.total_cmp(&b.0));
+    lines.stable_sort_by(|a, b| a.0.total_cmp(&b.0));
     lines
 }
 

@@ -15,6 +15,7 @@ use crate::polygon::measure::Bounds;
 use crate::polygon::{Contour, DVec2, Join, Polygon, PolygonSet, dvec2};
 use crate::region::overhang::{self, Island};
 use crate::slice::{Axis, slice_triangles};
+use crate::sort::StableSort;
 
 /// Needs narrower than twice this, mm, hold themselves (opened by 0.2).
 const OPENING_MM: f64 = 0.2;
@@ -256,8 +257,9 @@ fn request(job: &Job, need: &Need, spot: &PolygonSet, turned: bool) -> Option<Re
 /// Puts plates where they are wanted; what is wanted within a plate's thickness of another plane
 /// goes there.
 fn fulfil(job: &Job, mut requests: Vec<Request>, plates: &mut Vec<Plate>) {
-    requests
-        .sort_by(|a, b| a.at.total_cmp(&b.at).then(a.top.cmp(&b.top)).then(a.span[0].total_cmp(&b.span[0])));
+    requests.stable_sort_by(|a, b| {
+        a.at.total_cmp(&b.at).then(a.top.cmp(&b.top)).then(a.span[0].total_cmp(&b.span[0]))
+    });
     let thickness = job.frame.width * f64::from(job.options.plates.thickness);
     let mut changed = Vec::new();
     for axis in [Axis::X, Axis::Y] {
@@ -290,7 +292,7 @@ fn fulfil(job: &Job, mut requests: Vec<Request>, plates: &mut Vec<Plate>) {
 /// Sections in the order of `places`, which need not ascend.
 fn sorted_sections(job: &Job, axis: Axis, places: &[f64]) -> Vec<super::PlaneSection> {
     let mut order: Vec<usize> = (0..places.len()).collect();
-    order.sort_by(|&a, &b| places[a].total_cmp(&places[b]));
+    order.stable_sort_by(|&a, &b| places[a].total_cmp(&places[b]));
     let ascending: Vec<f64> = order.iter().map(|&i| places[i]).collect();
     let mut cuts: Vec<Option<super::PlaneSection>> = places.iter().map(|_| None).collect();
     for ((section, _), i) in job.sections(axis, &ascending).into_iter().zip(order) {

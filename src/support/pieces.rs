@@ -4,6 +4,7 @@ use super::frame::Frame;
 use super::plates::Plate;
 use super::spans::{self, Span};
 use crate::slice::Axis;
+use crate::sort::StableSort;
 
 /// Pieces that are nowhere longer than this, mm, are dropped unless something rests on them.
 const SHORT_MM: f64 = 1.0;
@@ -204,7 +205,7 @@ fn each_crossing(frame: &Frame, plates: &[Plate], k: usize, mut visit: impl FnMu
                     .map(move |(l, line)| (line.at, p, l))
             });
         let mut lines: Vec<_> = lines.collect();
-        lines.sort_by(|a, b| a.0.total_cmp(&b.0));
+        lines.stable_sort_by(|a, b| a.0.total_cmp(&b.0));
         lines
     };
     let (along_y, along_x) = (of_axis(Axis::X), of_axis(Axis::Y));

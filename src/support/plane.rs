@@ -9,6 +9,7 @@
 //! Structure in FDM Process".
 
 use crate::polygon::{Contour, DVec2, PolygonSet, dvec2};
+use crate::sort::StableSort;
 
 /// Edges may cross by this much before a slab is split at the crossing, mm: vertices are rounded to
 /// the polygon grid, and two grid steps of overlap there are no crossing.
@@ -217,7 +218,7 @@ struct Sweep<'a> {
 impl<'a> Sweep<'a> {
     fn new(section: &'a PlaneSection, demand: Demand) -> Self {
         let mut sides: Vec<Side> = section.edges.iter().enumerate().filter_map(Side::of).collect();
-        sides.sort_by(|a, b| a.left.x.total_cmp(&b.left.x).then(a.edge.cmp(&b.edge)));
+        sides.stable_sort_by(|a, b| a.left.x.total_cmp(&b.left.x).then(a.edge.cmp(&b.edge)));
         let last_below = vec![u32::MAX; sides.len()];
         let (columns, floors) = (Vec::new(), Vec::new());
         Sweep { section, demand, sides, active: Vec::new(), strands: Vec::new(), columns, floors, last_below }
@@ -258,7 +259,7 @@ impl<'a> Sweep<'a> {
         // Where surfaces touch, the one that the part lies above comes first: no gap opens.
         let rise = |s: &Strand| self.sides[s.side as usize].rise;
         let middle = |s: &Strand| s.z[0] + s.z[1];
-        self.strands.sort_by(|a, b| middle(a).total_cmp(&middle(b)).then(rise(b).cmp(&rise(a))));
+        self.strands.stable_sort_by(|a, b| middle(a).total_cmp(&middle(b)).then(rise(b).cmp(&rise(a))));
         self.active.clear();
         self.active.extend(self.strands.iter().map(|s| s.side));
         let crossed = |low: &Strand, high: &Strand| (0..2).any(|i| low.z[i] - high.z[i] > CROSSING_MM);

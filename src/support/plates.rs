@@ -4,6 +4,7 @@ use super::frame::Frame;
 use super::plane::Column;
 use super::spans::{self, Span};
 use crate::slice::Axis;
+use crate::sort::StableSort;
 
 /// The plates of one plane.
 pub(super) struct Plate {
@@ -73,7 +74,7 @@ pub(super) fn lay(frame: &Frame, plates: &mut [Plate], choose: impl Fn(usize) ->
             p.lines.iter().map(|l| l.at).zip(0..).map(move |(at, l)| (at, i, l)).collect::<Vec<_>>()
         };
         let mut lines: Vec<(f64, usize, usize)> = chosen.flat_map(of_plate).collect();
-        lines.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        lines.stable_sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let places: Vec<f64> = lines.iter().map(|l| l.0).collect();
         for k in 0..frame.layers.len() {
             let air: Vec<&[Span]> =

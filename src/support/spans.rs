@@ -1,5 +1,7 @@
 //! Stretches of a line: sorted, disjoint intervals.
 
+use crate::sort::StableSort;
+
 /// From and to, mm; from < to.
 pub(super) type Span = [f64; 2];
 
@@ -11,7 +13,7 @@ pub(super) fn tidy(spans: &mut Vec<Span>) {
     if spans.windows(2).all(|pair| pair[0][1] < pair[1][0] - SAME_MM) {
         return;
     }
-    spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    spans.stable_sort_by(|a, b| a[0].total_cmp(&b[0]));
     let mut kept = 0;
     for i in 1..spans.len() {
         if spans[i][0] <= spans[kept][1] + SAME_MM {

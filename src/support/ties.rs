@@ -8,6 +8,7 @@ use super::plates::{self, Plate, lines_at};
 use super::spans::{self, Span};
 use crate::polygon::PolygonSet;
 use crate::slice::Axis;
+use crate::sort::StableSort;
 
 /// Height of the walls, mm: stiff enough to pull on, little plastic.
 const HEIGHT_MM: f64 = 2.0;
@@ -27,7 +28,7 @@ pub(super) fn join(job: &Job, plates: &mut Vec<Plate>) {
     let limit = job.options.plates.join_distance;
     let beads = pieces::on_bed(&job.frame, plates);
     let mut ties = candidates(job, plates, &beads, limit);
-    ties.sort_by(|a, b| {
+    ties.stable_sort_by(|a, b| {
         let key = |t: &Tie| [t.span[1] - t.span[0], t.at, t.span[0]];
         let by_place = key(a).iter().zip(key(b)).map(|(a, b)| a.total_cmp(&b)).find(|o| o.is_ne());
         by_place.unwrap_or((a.axis == Axis::Y).cmp(&(b.axis == Axis::Y)))

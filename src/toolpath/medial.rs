@@ -29,6 +29,7 @@ pub(super) use bead::ring;
 
 use crate::polygon::{DVec2, Join, Polygon, PolygonSet, by_x_then_y};
 use crate::region::{Path, Role, Width};
+use crate::sort::StableSort;
 
 /// Largest distance of neighbouring points on the triangulated outline, mm. About a bead's width:
 /// closer points make more triangles and no better line, wider ones miss turns of the axis.
@@ -107,7 +108,7 @@ pub fn fill_thin(area: &PolygonSet, options: &ThinFill) -> ThinBeads {
         beads.left_mm2 += found.left_mm2;
         beads.fallbacks.append(&mut found.fallbacks);
     }
-    beads.paths.sort_by(|a, b| compare_points(&a.points, &b.points));
+    beads.paths.stable_sort_by(|a, b| compare_points(&a.points, &b.points));
     beads
 }
 

@@ -9,6 +9,7 @@ use crate::polygon::measure::Bounds;
 use crate::polygon::simplify::squared_distance_to_segment;
 use crate::polygon::{DVec2, Polygon, PolygonSet};
 use crate::region::{Path, Role};
+use crate::sort::StableSort;
 
 /// Everything to be printed on one layer, in no order.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -158,7 +159,7 @@ fn order_walls(mut walls: Vec<(u32, Path)>, seam: SeamPosition, here: &mut DVec2
 
 fn start_beside_parents(walls: &mut [(u32, Path)], parents: &[Option<usize>]) {
     let mut from_outside: Vec<usize> = (0..walls.len()).collect();
-    from_outside.sort_by_key(|&i| walls[i].0);
+    from_outside.stable_sort_by_key(|&i| walls[i].0);
     for i in from_outside {
         if let Some(parent) = parents[i].filter(|_| walls[i].1.closed) {
             let seam = walls[parent].1.points[0];

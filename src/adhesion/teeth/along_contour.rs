@@ -12,6 +12,7 @@ use crate::adhesion::clip::{Line, to_box};
 use crate::adhesion::segments::{Segment, Segments, distance_between};
 use crate::polygon::measure::Bounds;
 use crate::polygon::{DVec2, PolygonSet};
+use crate::sort::StableSort;
 
 /// Outline within the rail's distance and this much more counts as reachable, mm.
 pub(super) const REACH_SLACK_MM: f64 = 0.02;
@@ -149,7 +150,7 @@ impl Summary {
             by_rail[tooth.rail].push(tooth);
         }
         for teeth in &mut by_rail {
-            teeth.sort_by(|x, y| x.from.total_cmp(&y.from));
+            teeth.stable_sort_by(|x, y| x.from.total_cmp(&y.from));
         }
         let rails = rails.into_iter().zip(by_rail).filter(|(_, teeth)| !teeth.is_empty()).collect();
         Placement { rails, left_out: self.left_out, missing_at: self.missing_at, bare: self.bare }

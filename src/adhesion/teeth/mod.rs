@@ -25,6 +25,7 @@ use super::segments::{Segment, Segments};
 use super::{FirstLayer, Foundation, TeethFigures};
 use crate::polygon::{DVec2, Join, PolygonSet, by_x_then_y};
 use crate::region::{Path, Role};
+use crate::sort::StableSort;
 
 /// By how much crowded rails may be off, mm: a tenth of what a bite may.
 const RAIL_TOLERANCE_MM: f64 = 0.002;
@@ -126,7 +127,7 @@ fn zigzags(
     rails: &[(Rail, Vec<PlacedTooth>)],
 ) -> (Vec<Path>, Option<DVec2>) {
     let mut tips: Vec<DVec2> = rails.iter().flat_map(|r| &r.1).map(|t| t.tooth.tip).collect();
-    tips.sort_by(|&p, &q| by_x_then_y(p, q));
+    tips.stable_sort_by(|&p, &q| by_x_then_y(p, q));
     let holds = |p: &DVec2| tips.binary_search_by(|&q| by_x_then_y(q, *p)).is_ok();
     let keeps_bare = site.options.placement == Placement::PerEdge;
     let (mut paths, mut off_bed) = (Vec::new(), None);

@@ -2,6 +2,7 @@
 
 use super::PlacedTooth;
 use crate::polygon::DVec2;
+use crate::sort::StableSort;
 
 /// Cosine of the turn from which a vertex of the rail is a corner and not part of a curve (30
 /// degrees). Outlines are simplified to 0.005 mm, so curves of 0.15 mm radius or more turn by less.
@@ -80,9 +81,9 @@ impl Rail {
                 (relative(t.from), relative(t.from) + (t.to - t.from), [t.tooth.a, t.tooth.tip, t.tooth.b])
             })
             .collect();
-        stops.sort_by(|x, y| x.0.total_cmp(&y.0));
+        stops.stable_sort_by(|x, y| x.0.total_cmp(&y.0));
         let mut vertices: Vec<(f64, DVec2)> = self.edges().map(|(s, a, _)| (relative(s), a)).collect();
-        vertices.sort_by(|x, y| x.0.total_cmp(&y.0));
+        vertices.stable_sort_by(|x, y| x.0.total_cmp(&y.0));
         merged(&vertices, &stops)
     }
 }

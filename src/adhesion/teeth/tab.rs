@@ -5,6 +5,7 @@ use crate::adhesion::FirstLayer;
 use crate::adhesion::error::{AdhesionWarning, WarningCode};
 use crate::polygon::{Contour, DVec2, Join, PolygonSet};
 use crate::region::{Path, Role};
+use crate::sort::StableSort;
 
 /// Along the rail: what two fingertips or pliers hold, mm.
 const WIDTH_MM: f64 = 6.0;
@@ -24,7 +25,7 @@ pub(super) fn tabs(
     let (mut paths, mut missing) = (Vec::new(), None);
     for (rail, teeth) in rails {
         let mut places = gaps(rail, teeth);
-        places.sort_by(|x, y| straightness(rail, *y).total_cmp(&straightness(rail, *x)));
+        places.stable_sort_by(|x, y| straightness(rail, *y).total_cmp(&straightness(rail, *x)));
         let mut tabs = places.into_iter().map(|s| Tab::at(rail, s, outer));
         match tabs.find(|tab| tab.has_room(site, &taken, first.line_width)) {
             Some(tab) => {

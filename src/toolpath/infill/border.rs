@@ -3,6 +3,7 @@
 
 use crate::polygon::grid::EdgeGrid;
 use crate::polygon::{DVec2, PolygonSet};
+use crate::sort::StableSort;
 
 /// A place on the border.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -136,7 +137,7 @@ impl<'a> Border<'a> {
             }
         }
         let in_order = |mut ring: Vec<(f64, usize)>| {
-            ring.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            ring.stable_sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             ring.into_iter().map(|(_, end)| end).collect()
         };
         rings.into_iter().map(in_order).collect()

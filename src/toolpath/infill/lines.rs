@@ -9,6 +9,7 @@ use super::border::{Border, Piece};
 use crate::polygon::{Contour, DVec2, Join, PolygonSet, dvec2};
 use crate::region::Bead;
 use crate::region::{Path, Role};
+use crate::sort::StableSort;
 
 /// Sine of 60 degrees.
 const SIN_60: f64 = 0.866_025_403_784_438_6;
@@ -131,7 +132,7 @@ fn cross_contour(crossings: &mut Vec<Crossing>, hatch: Hatch, contour: usize, ri
 
 fn sorted_along_lines(crossings: &[Crossing]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..crossings.len()).collect();
-    order.sort_by(|&a, &b| {
+    order.stable_sort_by(|&a, &b| {
         let (a, b) = (&crossings[a], &crossings[b]);
         a.line.cmp(&b.line).then(a.u.total_cmp(&b.u))
     });

@@ -2,6 +2,7 @@
 
 use super::axis::{Axis, Branch, Node, Sample};
 use crate::polygon::DVec2;
+use crate::sort::StableSort;
 
 /// A branch that ends at a corner is a spur when it reaches less than this far out of the circle at
 /// its junction, in radii of that circle. A right angle's spur reaches sqrt(2) - 1 = 0.41 radii, one
@@ -155,7 +156,7 @@ fn without_spurs(nodes: &[Node], branches: Vec<Branch>) -> Vec<Branch> {
             (reach <= SPUR_REACH * junction.radius).then_some((reach, h))
         };
         let mut spurs: Vec<(f64, Half)> = halves_here.iter().filter_map(spur).collect();
-        spurs.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        spurs.stable_sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         // A blob of nothing but spurs keeps the two longest as its line.
         let keep = if spurs.len() == halves_here.len() { 2 } else { 0 };
         for (_, h) in &spurs[..spurs.len() - keep] {

@@ -8,6 +8,7 @@
 use super::corner::hiding;
 use crate::polygon::simplify::closest_on_segment;
 use crate::polygon::{Contour, DVec2, PolygonSet};
+use crate::sort::StableSort;
 
 /// A line of seams: height and place, from below.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -97,7 +98,7 @@ fn followers(lower: &[&Contour], upper: &[Contour]) -> Vec<Option<usize>> {
         }
     }
     // Closest first; of equals in the order of the contours.
-    pairs.sort_by(|a, b| b.0.cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    pairs.stable_sort_by(|a, b| b.0.cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
     let mut follows = vec![None; upper.len()];
     let mut taken = vec![false; lower.len()];
     for (_, u, l) in pairs {
@@ -159,12 +160,12 @@ fn candidates(contour: &Contour, below: &[Candidate]) -> Vec<Candidate> {
     let front = |p: DVec2| FRONT_COST * (bounds.max.y - p.y) / bounds.size().y.max(f64::MIN_POSITIVE);
     let mut own: Vec<(f64, DVec2)> =
         (0..points.len()).map(|i| (hiding(points, i) + front(points[i]), points[i])).collect();
-    own.sort_by(|a, b| a.0.total_cmp(&b.0));
+    own.stable_sort_by(|a, b| a.0.total_cmp(&b.0));
     let rear = own.iter().copied().min_by(|a, b| b.1.y.total_cmp(&a.1.y).then(a.1.x.total_cmp(&b.1.x)));
     own.truncate(CANDIDATES);
     own.extend(rear);
     let mut cheapest: Vec<&Candidate> = below.iter().collect();
-    cheapest.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    cheapest.stable_sort_by(|a, b| a.cost.total_cmp(&b.cost));
     own.extend(cheapest.into_iter().take(CANDIDATES).map(|c| {
         let at = closest(contour, c.at);
         (1.0 + front(at), at)
