@@ -125,8 +125,7 @@ impl Settings {
             let nested = parse_assignment(assignment)?;
             overlay(&mut tree, nested, "")?;
         }
-        let settings: Settings = serde_path_to_error::deserialize(tree)
-            .map_err(|e| SettingsError::Wrong { path: e.path().to_string(), cause: e.inner().to_string() })?;
+        let settings = read_tree(&tree).map_err(|cause| first_wrong(&tree, cause))?;
         settings.check("").map_err(SettingsError::OutOfRange)?;
         Ok(settings)
     }
@@ -199,6 +198,47 @@ fn overlay(tree: &mut Value, change: Value, path: &str) -> Result<(), SettingsEr
     }
 }
 
+/// A whole tree as settings, or why it is none; the cause does not say where.
+fn read_tree(tree: &Value) -> Result<Settings, String> {
+    serde_json::from_value(tree.clone()).map_err(|e| e.to_string())
+}
+
+/// Finds the value that makes `tree` unusable by trying each alone among defaults. A deserializer that
+/// keeps its path would tell at once, but is compiled anew for every struct: 200 KiB of wasm.
+fn first_wrong(tree: &Value, cause: String) -> SettingsError {
+    let defaults = to_tree(&Settings::default());
+    let found = blame(tree, &defaults, "", &|whole| whole);
+    found.unwrap_or(SettingsError::Wrong { path: String::new(), cause })
+}
+
+/// The first wrong value in `value`, whose path is `path` and whose default is `default`; `whole` puts
+/// a value of that path into a tree that is right everywhere else.
+fn blame(
+    value: &Value,
+    default: &Value,
+    path: &str,
+    whole: &dyn Fn(Value) -> Value,
+) -> Option<SettingsError> {
+    if let (Value::Object(items), Value::Object(defaults)) = (value, default) {
+        return items.iter().find_map(|(key, item)| {
+            let among_defaults = |tried: Value| {
+                let mut group = defaults.clone();
+                group.insert(key.clone(), tried);
+                whole(Value::Object(group))
+            };
+            blame(item, &default[key], &join_path(path, key), &among_defaults)
+        });
+    }
+    let cause = read_tree(&whole(value.clone())).err()?;
+    let items = value.as_array().map_or(&[][..], Vec::as_slice);
+    // One item as often as the list is to be long, or is.
+    let length = default.as_array().map(Vec::len).filter(|&n| n > 0).unwrap_or(items.len());
+    let alone = |tried: Value| whole(Value::Array(vec![tried; length]));
+    let inside =
+        (0..).zip(items).find_map(|(i, item)| blame(item, &Value::Null, &format!("{path}[{i}]"), &alone));
+    inside.or_else(|| Some(SettingsError::Wrong { path: path.to_owned(), cause }))
+}
+
 fn flatten(tree: &Value, path: &str, lines: &mut Vec<(String, String)>) {
     match tree {
         Value::Object(map) => {
@@ -233,6 +273,19 @@ mod tests {
         assert_eq!(error(&[], &["walls.width=9"]), "walls.width: 9 is outside 0.1 to 2 mm");
         assert!(error(&[], &["walls.count=2.5"]).starts_with("walls.count: invalid type"));
         assert!(error(&[], &["infill.pattern=zigzag"]).starts_with("infill.pattern: unknown variant"));
+        assert_eq!(
+            error(&[], &[r#"printer.bed_size=[220,"wide"]"#]),
+            "printer.bed_size[1]: invalid type: string \"wide\", expected f64"
+        );
+        assert!(error(&[], &["printer.bed_size=[220]"]).starts_with("printer.bed_size: invalid length 1"));
+        assert!(
+            error(&[], &["support.blockers=[[0,0,0,1,1,1],[0,0,0,1,null,1]]"])
+                .starts_with("support.blockers[1][4]: ")
+        );
+        assert!(
+            error(&[], &[r#"gcode.events=[{"kind":"pause"},{"kind":"dance"}]"#])
+                .starts_with("gcode.events[1]: unknown variant")
+        );
         assert_eq!(error(&[], &["walls=2"]), "walls: expected a group of settings, found 2");
         assert_eq!(error(&[], &["walls.count"]), "walls.count: expected path=value");
         assert!(error(&["{"], &[]).starts_with("settings are not JSON"));
