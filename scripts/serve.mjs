@@ -17,8 +17,12 @@ const types = {
  * Serves the folders of `places` under their paths (`{ '/shop/': 'examples/embed' }`); the first that has a file wins,
  * and a file may stand for a path of its own. `headers` go with each answer; `edit` may change a text. Resolves to
  * the origin, the paths asked for, and a way to end it.
+ *
+ * @param {Readonly<Record<string, string>>} places
+ * @param {{ headers?: Record<string, string>, edit?: (text: string, asked: string) => string }} [how]
  */
 export async function serve(places, { headers = {}, edit = (text) => text } = {}) {
+  /** @type {string[]} */
   const asked = [];
   const server = createServer((request, response) => {
     const asks = decodeURIComponent(new URL(request.url ?? '/', 'http://localhost').pathname);

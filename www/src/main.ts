@@ -1,6 +1,7 @@
 // The page: the app in a page of its own, which keeps what the visitor did for the next visit.
 import { App } from './app.ts';
 import { loadChanges, loadModels, saveChanges, saveModels } from './keep.ts';
+import { keepOffline } from './offline.ts';
 import { loadPreferences, savePreferences } from './preferences.ts';
 import { allFields } from './settings/room.ts';
 import { SAMPLE } from './source.ts';
@@ -19,6 +20,9 @@ if (session !== undefined) {
   keepWork(app.store);
   await session.start(location.href, kept);
 }
+// After the first job, so that what is kept for later does not hold it up.
+const takeNewVersion = await keepOffline(app.store);
+element.addEventListener('take-new-version', takeNewVersion);
 
 /** Keeps settings, models and parts for the next visit whenever they change. */
 function keepWork(store: Store): void {

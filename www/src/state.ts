@@ -6,6 +6,7 @@ import { firstPlace, type Place } from './lesson/steps.ts';
 import type { LegendEntry, ModelSource, PictureView } from './messages.ts';
 import type { Part } from './parts.ts';
 import type { ThemeChoice } from './preferences.ts';
+import { hasJob } from './printer/link.ts';
 import { type PrintState, printInitial } from './printer/print-state.ts';
 import type { Changes } from './settings/changes.ts';
 import type { Gcode } from './slicer/gcode.ts';
@@ -76,6 +77,8 @@ export type Frame = 'page' | 'embedded' | 'locked';
 export interface State {
   readonly frame: Frame;
   readonly engine: 'starting' | 'ready' | Problem;
+  /** A newer page waits to be loaded; "elsewhere": another tab's job keeps it waiting. */
+  readonly newVersion: 'ready' | 'elsewhere' | undefined;
   readonly model: ModelState;
   readonly job: JobState;
   readonly result: Result | undefined;
@@ -118,6 +121,7 @@ export interface State {
 export const initial: State = {
   frame: 'page',
   engine: 'starting',
+  newVersion: undefined,
   model: { kind: 'none' },
   job: { kind: 'idle' },
   result: undefined,
@@ -182,6 +186,11 @@ export class Store {
     this.#listeners.add(listener);
     listener(this.#state);
   }
+}
+
+/** Whether a job runs that a reload would end. */
+export function isBusy({ job, print }: State): boolean {
+  return job.kind === 'running' || hasJob(print.printer) || print.upload.kind === 'running';
 }
 
 /** Whether the form says something else than the result was made with. */

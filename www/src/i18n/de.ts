@@ -22,6 +22,9 @@ export const de: Words = {
   page: {
     language: 'Sprache',
     dark: 'Dunkle Farben',
+    newVersion: 'Eine neue Version ist bereit.',
+    versionWaits: 'Eine neue Version ist bereit; sie wartet auf den Auftrag in einem anderen Tab.',
+    reload: 'Neu laden',
   },
   model: {
     heading: 'Modell',

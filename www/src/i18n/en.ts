@@ -23,6 +23,9 @@ export const en = {
   page: {
     language: 'Language',
     dark: 'Dark colours',
+    newVersion: 'A new version is ready.',
+    versionWaits: 'A new version is ready; it waits for the job in another tab.',
+    reload: 'Reload',
   },
   model: {
     heading: 'Model',

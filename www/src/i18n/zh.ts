@@ -22,6 +22,9 @@ export const zh: Words = {
   page: {
     language: '语言',
     dark: '深色',
+    newVersion: '新版本已就绪。',
+    versionWaits: '新版本已就绪，正在等待另一个标签页中的任务完成。',
+    reload: '重新加载',
   },
   model: {
     heading: '模型',

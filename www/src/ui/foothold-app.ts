@@ -3,7 +3,7 @@ import { html, nothing, type TemplateResult } from 'lit';
 import { t } from '../i18n/text.ts';
 import type { ThemeChoice } from '../preferences.ts';
 import type { PrintSession } from '../printer/print-session.ts';
-import { isStale, type Step } from '../state.ts';
+import { isBusy, isStale, type Step } from '../state.ts';
 import type { Painter } from '../view/painter.ts';
 import './job-bar.ts';
 import './learn-step.ts';
@@ -87,6 +87,7 @@ export class FootholdApp extends StepPart {
       <div class="page ${step === 'learn' ? 'learning' : ''}" role=${isPage ? 'main' : nothing}>
         <div class="panel" part="panel" id="panel" role="tabpanel" aria-labelledby="tab-${step}">
           <slot name="notice"></slot>
+          ${isBusy(this.state) ? nothing : this.#news()}
           ${typeof engine === 'string' ? nothing : problemBox(engine)}
           <div class="panel-scroll">${this.#panel()}</div>
           ${step === 'learn' ? nothing : this.#job()}
@@ -103,6 +104,16 @@ export class FootholdApp extends StepPart {
       </div>
       <p class="unseen" role="status">${this.#said()}</p>
     `;
+  }
+
+  /** That there is a newer page; not said during a job, which it would end. */
+  #news(): TemplateResult | typeof nothing {
+    const { newVersion } = this.state;
+    if (newVersion === undefined) return nothing;
+    return html`<div class="remark row spread" role="status">
+      <span>${newVersion === 'ready' ? t.page.newVersion : t.page.versionWaits}</span>
+      <button type="button" class="button small" @click=${() => this.tell('take-new-version')}>${t.page.reload}</button>
+    </div>`;
   }
 
   /** The panel of the chosen step. */
