@@ -1,12 +1,11 @@
 // For everyone: no findings of axe in any state, and the whole way by keyboard alone.
 import { writeFileSync } from 'node:fs';
-import AxeBuilder from '@axe-core/playwright';
-import type { Page } from '@playwright/test';
 import { binaryStl, box } from '../node/shapes.ts';
 import {
   downloadButton,
   expect,
   layerSlider,
+  noFindings,
   openFile,
   picture,
   ready,
@@ -15,12 +14,6 @@ import {
   stepTab,
   test,
 } from './page.ts';
-
-async function noFindings(page: Page, state: string): Promise<void> {
-  const { violations } = await new AxeBuilder({ page }).analyze();
-  const found = violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`);
-  expect(found, state).toEqual([]);
-}
 
 for (const colorScheme of ['light', 'dark'] as const) {
   test(`axe finds nothing, ${colorScheme}`, async ({ page }, info) => {

@@ -4,7 +4,7 @@ import path from 'node:path';
 import { type Page, test as plain } from '@playwright/test';
 import { embedExample } from '../../scripts/embed.mjs';
 import { foothold } from '../node/command.ts';
-import { expect, sliceButton } from './page.ts';
+import { expect, noFindings, sliceButton } from './page.ts';
 
 const sample = new URL('../../www/public/sample.stl', import.meta.url).pathname;
 
@@ -79,6 +79,10 @@ test('the example: a price from the report, the bytes of the command line, nothi
   expect(example.element.asked.filter((it) => !/^\/(foothold-slicer\.js|assets\/[^/]+\.(js|wasm))$/.test(it))).toEqual(
     [],
   );
+  for (const colorScheme of ['light', 'dark'] as const) {
+    await page.emulateMedia({ colorScheme });
+    await noFindings(page, `sliced, ${colorScheme}`);
+  }
   const kept = await page.evaluate(async () => [
     localStorage.length,
     (await indexedDB.databases()).map((it) => it.name),

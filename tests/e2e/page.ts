@@ -1,4 +1,5 @@
 // What the browser tests share: a page that must not complain, and waiting for its states.
+import AxeBuilder from '@axe-core/playwright';
 import { test as base, expect, type Page } from '@playwright/test';
 
 /** A test whose page must not log errors, break its Content-Security-Policy or ask other hosts for anything. */
@@ -63,4 +64,11 @@ export async function settled(page: Page): Promise<Buffer> {
     before = now;
   }
   throw new Error('the picture does not settle');
+}
+
+/** Axe finds nothing on the page, which is in this state. */
+export async function noFindings(page: Page, state: string): Promise<void> {
+  const { violations } = await new AxeBuilder({ page }).analyze();
+  const found = violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`);
+  expect(found, state).toEqual([]);
 }
