@@ -25,7 +25,9 @@ export default defineConfig({
   preview: { port: 4173 },
 });
 
-/** Tells the service worker all files of the page, each with its digest. */
+const digest = (file: string): string => createHash('sha256').update(readFileSync(file)).digest('hex').slice(0, 16);
+
+/** Tells the service worker all files of the page, each with its digest where its name holds none. */
 function knowingFiles(): Plugin {
   const offline = `${out}/offline.js`;
   return {
@@ -39,7 +41,7 @@ function knowingFiles(): Plugin {
         .sort()
         .map((file) => ({
           url: file.slice(out.length + 1),
-          revision: createHash('sha256').update(readFileSync(file)).digest('hex').slice(0, 16),
+          revision: file.startsWith(`${out}/assets/`) ? null : digest(file),
         }));
       const script = readFileSync(offline, 'utf8');
       if (!script.includes('self.FOOTHOLD_FILES')) throw new Error(`${offline} has no place for the files`);

@@ -90,6 +90,34 @@ test('the example: a price from the report, the bytes of the command line, nothi
   expect(kept).toEqual([0, ['foothold-print']]);
 });
 
+test('settings set before the element is defined count, and a job ends quietly with its element', async ({
+  page,
+  example,
+}) => {
+  await page.addInitScript(() => {
+    // As the parser meets the element, before its module runs.
+    new MutationObserver(() => {
+      const early = document.querySelector('foothold-slicer');
+      if (early !== null && !('settings' in early)) Object.assign(early, { settings: { layers: { height: 0.3 } } });
+    }).observe(document, { childList: true, subtree: true });
+  });
+  await page.goto(example.address);
+  const told = await page.evaluate(async () => {
+    const slicer = document.querySelector('foothold-slicer') as HTMLElement & {
+      load(address: string): Promise<void>;
+      slice(): Promise<{ layers: number }>;
+    };
+    const errors: unknown[] = [];
+    slicer.addEventListener('foothold-error', (event) => errors.push((event as CustomEvent).detail));
+    await slicer.load('bracket.stl');
+    const { layers } = await slicer.slice();
+    const ended = slicer.slice().catch((error: Error) => error.name);
+    slicer.remove();
+    return { layers, ended: await ended, errors };
+  });
+  expect(told).toEqual({ layers: 160, ended: 'AbortError', errors: [] });
+});
+
 test('several on a page do not disturb each other, and one that is removed frees its workers', async ({
   page,
   example,

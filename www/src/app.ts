@@ -30,7 +30,9 @@ export class App {
     const compiled = compileEngine();
     this.#printing = this.#prepareToPrint(compiled);
     this.session = this.#start(compiled);
-    this.session.catch((error: unknown) => this.store.update({ engine: problemOf(error) }));
+    this.session.catch((error: unknown) => {
+      if (!this.#end.signal.aborted) this.store.update({ engine: problemOf(error) });
+    });
   }
 
   /** Ends all workers; the app is not used any more. */

@@ -43,6 +43,7 @@ export class FootholdSlicer extends HTMLElement implements FootholdSlicerElement
   }
 
   connectedCallback(): void {
+    this.#takeEarly();
     if (this.#app === undefined) this.#start();
   }
 
@@ -91,7 +92,7 @@ export class FootholdSlicer extends HTMLElement implements FootholdSlicerElement
     if (app.store.state.model.kind !== 'open') throw named({ name: 'ModelError', message: 'no model is open' });
     await session.slice();
     const { job, result } = app.store.state;
-    if (job.kind === 'failed') throw named(job.problem);
+    if (job.kind === 'failed' && this.#app === app) throw named(job.problem);
     if (job.kind !== 'done' || result === undefined) throw new DOMException('cancelled', 'AbortError');
     return result.report;
   }
@@ -110,10 +111,19 @@ export class FootholdSlicer extends HTMLElement implements FootholdSlicerElement
     this.#app = app;
     let before = app.store.state;
     app.store.listen((state) => {
-      this.#tell(before, state);
+      // What an end brings about is nobody's error.
+      if (this.#app === app) this.#tell(before, state);
       before = state;
     });
     this.#loadNamed();
+  }
+
+  /** Takes over settings that were set before the element was defined. */
+  #takeEarly(): void {
+    const early = Object.getOwnPropertyDescriptor(this, 'settings')?.value as SomeSettings | undefined;
+    if (early === undefined) return;
+    Reflect.deleteProperty(this, 'settings');
+    this.settings = early;
   }
 
   #stop(): void {

@@ -4,7 +4,7 @@ import { precacheAndRoute } from 'workbox-precaching';
 
 declare const self: ServiceWorkerGlobalScope & {
   /** All files of the page; the build writes them in. */
-  readonly FOOTHOLD_FILES: { readonly url: string; readonly revision: string }[];
+  readonly FOOTHOLD_FILES: { readonly url: string; readonly revision: string | null }[];
 };
 
 // An address may name a model or a lesson: it is the same page.

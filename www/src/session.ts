@@ -129,6 +129,8 @@ export class Session {
   }
 
   select(selected: number | undefined): void {
+    // What is chosen can be dragged.
+    if (this.#store.state.frame === 'locked') return;
     if (selected !== this.#store.state.selected) this.#store.update({ selected });
   }
 
