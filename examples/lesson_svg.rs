@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (name, steps) in &lessons {
         write(folder, name, steps)?;
     }
-    let alternatives = job.alternatives(&|| 0.0)?;
+    let alternatives = job.first_print().alternatives(&|| 0.0)?;
     for (kind, picture) in alternatives.kinds.iter().zip(Scene::of_alternatives(&alternatives)) {
         fs::write(folder.join(format!("base-{}.svg", kind.report.kind.name())), picture.to_svg())?;
     }

@@ -6,8 +6,8 @@ use serde_json::{Map, Value};
 
 use crate::adhesion::AdhesionOptions;
 use crate::gcode::{
-    AccelerationOptions, CoolingOptions, FilamentOptions, GcodeOptions, OutputOptions, PrinterOptions,
-    RetractionOptions, SpeedOptions,
+    AccelerationOptions, CoolingOptions, FilamentOptions, GcodeOptions, OutputOptions, PrintOptions,
+    PrinterOptions, RetractionOptions, Sequence, SpeedOptions,
 };
 use crate::options::{Checked, OutOfRange, join_path};
 use crate::orientation::OrientationOptions;
@@ -30,6 +30,8 @@ crate::options! {
         filament: group FilamentOptions;
         /// The material of the second extruder.
         second_filament: group FilamentOptions;
+        /// How the models on a plate are printed.
+        print: group PrintOptions;
         /// Heights of the layers.
         layers: group LayerOptions;
         /// What is different on the first layer.
@@ -92,6 +94,13 @@ pub enum SettingsError {
     },
     /// The value is out of its range.
     OutOfRange(OutOfRange),
+    /// A model has a setting of its own that holds for the plate as a whole.
+    OfPlate {
+        /// The setting's path.
+        path: String,
+        /// Whether a model could have it if models were printed one after another.
+        by_object: bool,
+    },
 }
 
 impl fmt::Display for SettingsError {
@@ -102,6 +111,12 @@ impl fmt::Display for SettingsError {
             SettingsError::Unknown { path } => write!(f, "{path}: there is no such setting"),
             SettingsError::Wrong { path, cause } => write!(f, "{path}: {cause}"),
             SettingsError::OutOfRange(found) => found.fmt(f),
+            SettingsError::OfPlate { path, by_object: true } => {
+                write!(f, "{path}: a model can have its own with print.sequence=by_object only")
+            }
+            SettingsError::OfPlate { path, by_object: false } => {
+                write!(f, "{path}: holds for the whole plate; a model cannot have its own")
+            }
         }
     }
 }
@@ -125,9 +140,23 @@ impl Settings {
             let nested = parse_assignment(assignment)?;
             overlay(&mut tree, nested, "")?;
         }
-        let settings = read_tree(&tree).map_err(|cause| first_wrong(&tree, cause))?;
-        settings.check("").map_err(SettingsError::OutOfRange)?;
-        Ok(settings)
+        from_tree(&tree)
+    }
+
+    /// The settings of a model: its own laid over these, the plate's. What holds for the plate as a whole
+    /// is refused.
+    pub fn of_model(&self, own: &OwnSettings) -> Result<Settings, SettingsError> {
+        if own.is_empty() {
+            return Ok(self.clone());
+        }
+        let mut tree = to_tree(self);
+        overlay(&mut tree, Value::Object(own.0.clone()), "")?;
+        let foreign = |path: &String| !is_of_model(path, self.print.sequence);
+        if let Some((path, _)) = own.lines().into_iter().find(|(path, _)| foreign(path)) {
+            let by_object = is_of_model(&path, Sequence::ByObject);
+            return Err(SettingsError::OfPlate { path, by_object });
+        }
+        from_tree(&tree)
     }
 
     /// The settings as JSON.
@@ -160,6 +189,104 @@ impl Settings {
             seam_gap: self.seam.gap,
         }
     }
+}
+
+/// Settings of one model where they differ from those of its plate.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct OwnSettings(Map<String, Value>);
+
+impl OwnSettings {
+    /// From JSON texts and assignments in turn, as [`Settings::resolve`] takes them. Whether there are such
+    /// settings is told by [`Settings::of_model`].
+    pub fn resolve<'a>(
+        files: impl IntoIterator<Item = &'a str>,
+        assignments: impl IntoIterator<Item = &'a str>,
+    ) -> Result<OwnSettings, SettingsError> {
+        let mut own = OwnSettings::default();
+        for text in files {
+            own.add(
+                serde_json::from_str(text).map_err(|e| SettingsError::NotJson { cause: e.to_string() })?,
+            )?;
+        }
+        for assignment in assignments {
+            own.add(parse_assignment(assignment)?)?;
+        }
+        Ok(own)
+    }
+
+    fn add(&mut self, change: Value) -> Result<(), SettingsError> {
+        match change {
+            Value::Object(change) => merge(&mut self.0, change),
+            other => {
+                let cause = format!("expected a group of settings, found {other}");
+                return Err(SettingsError::Wrong { path: "models".to_owned(), cause });
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the model has none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The settings as JSON.
+    pub fn to_json(&self) -> String {
+        Value::Object(self.0.clone()).to_string()
+    }
+
+    /// Every own setting as its path and its value, like [`Settings::lines`].
+    pub fn lines(&self) -> Vec<(String, String)> {
+        let mut lines = Vec::new();
+        flatten(&Value::Object(self.0.clone()), "", &mut lines);
+        lines
+    }
+}
+
+/// Groups and single settings that a model can have of its own while all models grow together.
+const OF_MODEL: [&str; 22] = [
+    "walls",
+    "skin",
+    "infill",
+    "ironing",
+    "seam",
+    "support",
+    "speed.outer_wall",
+    "speed.inner_wall",
+    "speed.overhang_wall",
+    "speed.gap_fill",
+    "speed.bottom_skin",
+    "speed.top_skin",
+    "speed.solid_infill",
+    "speed.infill",
+    "speed.bridge",
+    "speed.ironing",
+    "acceleration.outer_wall",
+    "acceleration.inner_wall",
+    "acceleration.bridge",
+    "acceleration.top_skin",
+    "acceleration.solid_infill",
+    "acceleration.infill",
+];
+
+/// Groups that come to those when each model is printed by itself.
+const OF_MODEL_BY_OBJECT: [&str; 3] = ["layers", "first_layer", "adhesion"];
+
+/// Settings in these groups that stay the plate's.
+const OF_PLATE: [&str; 1] = ["support.tool"];
+
+/// Whether a model can have the setting of its own.
+pub fn is_of_model(path: &str, sequence: Sequence) -> bool {
+    let covers =
+        |group: &&str| path.strip_prefix(*group).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+    let by_object = sequence == Sequence::ByObject && OF_MODEL_BY_OBJECT.iter().any(|g| covers(&g));
+    !OF_PLATE.contains(&path) && (by_object || OF_MODEL.iter().any(|g| covers(&g)))
+}
+
+fn from_tree(tree: &Value) -> Result<Settings, SettingsError> {
+    let settings = read_tree(tree).map_err(|cause| first_wrong(tree, cause))?;
+    settings.check("").map_err(SettingsError::OutOfRange)?;
+    Ok(settings)
 }
 
 fn to_tree(settings: &Settings) -> Value {
@@ -239,6 +366,18 @@ fn blame(
     inside.or_else(|| Some(SettingsError::Wrong { path: path.to_owned(), cause }))
 }
 
+/// Puts `change` over `tree`, group by group.
+fn merge(tree: &mut Map<String, Value>, change: Map<String, Value>) {
+    for (key, value) in change {
+        match (tree.get_mut(&key), value) {
+            (Some(Value::Object(old)), Value::Object(new)) => merge(old, new),
+            (_, value) => {
+                tree.insert(key, value);
+            }
+        }
+    }
+}
+
 fn flatten(tree: &Value, path: &str, lines: &mut Vec<(String, String)>) {
     match tree {
         Value::Object(map) => {
@@ -289,5 +428,40 @@ mod tests {
         assert_eq!(error(&[], &["walls=2"]), "walls: expected a group of settings, found 2");
         assert_eq!(error(&[], &["walls.count"]), "walls.count: expected path=value");
         assert!(error(&["{"], &[]).starts_with("settings are not JSON"));
+    }
+
+    fn of_model(plate: &[&str], own: &[&str]) -> Result<Settings, String> {
+        let plate = Settings::resolve([], plate.iter().copied()).expect("good settings");
+        let own = OwnSettings::resolve([], own.iter().copied()).map_err(|e| e.to_string())?;
+        plate.of_model(&own).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn a_model_lays_its_own_over_the_plate() {
+        let found = of_model(&["walls.count=4", "infill.density=0.3"], &["infill.density=1"]).unwrap();
+        assert_eq!((found.walls.count, found.infill.density), (4, 1.0));
+        let files = [r#"{"walls": {"count": 2, "width": 0.5}}"#, r#"{"walls": {"count": 1}}"#];
+        let own = OwnSettings::resolve(files, ["skin.top_layers=9"]).unwrap();
+        let lines = [("skin.top_layers", "9"), ("walls.count", "1"), ("walls.width", "0.5")];
+        assert_eq!(own.lines(), lines.map(|(a, b)| (a.to_owned(), b.to_owned())));
+        assert_eq!(OwnSettings::resolve([own.to_json().as_str()], []).unwrap(), own);
+    }
+
+    #[test]
+    fn what_holds_for_the_plate_is_refused() {
+        let refused = |plate: &[&str], own| of_model(plate, &[own]).unwrap_err();
+        assert_eq!(
+            refused(&[], "layers.height=0.1"),
+            "layers.height: a model can have its own with print.sequence=by_object only"
+        );
+        let whole = "holds for the whole plate; a model cannot have its own";
+        for path in ["printer.height=90", "speed.travel=90", "support.tool=1", "print.sequence=by_object"] {
+            let name = path.split('=').next().unwrap();
+            assert_eq!(refused(&["print.sequence=by_object"], path), format!("{name}: {whole}"));
+        }
+        assert!(of_model(&["print.sequence=by_object"], &["layers.height=0.1"]).is_ok());
+        assert_eq!(refused(&[], "walls.cuont=2"), "walls.cuont: there is no such setting");
+        assert_eq!(refused(&[], "walls.width=9"), "walls.width: 9 is outside 0.1 to 2 mm");
+        assert!(refused(&[], "walls=9").starts_with("walls: expected a group"));
     }
 }

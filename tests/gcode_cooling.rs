@@ -9,7 +9,15 @@ use foothold::region::{Path, Role};
 use proptest::prelude::*;
 
 fn layer(index: u32, paths: &[Path]) -> LayerInput<'_> {
-    LayerInput { index, print_z: 0.2 + 0.2 * f64::from(index), height: 0.2, spiral: None, paths, ways: &[] }
+    LayerInput {
+        index,
+        print_z: 0.2 + 0.2 * f64::from(index),
+        height: 0.2,
+        spiral: None,
+        paths,
+        ways: &[],
+        own: &[],
+    }
 }
 
 fn square(role: Role, side: f64) -> Path {

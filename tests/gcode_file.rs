@@ -28,6 +28,7 @@ fn layers(count: u32, options: &GcodeOptions) -> Vec<LayerGcode> {
                 spiral: None,
                 paths,
                 ways: &[],
+                own: &[],
             },
             options,
         )

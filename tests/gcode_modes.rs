@@ -18,7 +18,7 @@ use proptest::prelude::*;
 
 fn layer(index: u32, paths: &[Path]) -> LayerInput<'_> {
     let print_z = 0.2 + 0.2 * f64::from(index);
-    LayerInput { index, print_z, height: 0.2, spiral: None, paths, ways: &[] }
+    LayerInput { index, print_z, height: 0.2, spiral: None, paths, ways: &[], own: &[] }
 }
 
 /// Arcs allowed, nothing slowed down.

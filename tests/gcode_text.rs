@@ -18,7 +18,15 @@ fn bead_area(width: f64) -> f64 {
 }
 
 fn layer(index: u32, paths: &[Path]) -> LayerInput<'_> {
-    LayerInput { index, print_z: 0.2 + 0.2 * f64::from(index), height: 0.2, spiral: None, paths, ways: &[] }
+    LayerInput {
+        index,
+        print_z: 0.2 + 0.2 * f64::from(index),
+        height: 0.2,
+        spiral: None,
+        paths,
+        ways: &[],
+        own: &[],
+    }
 }
 
 /// Without slowing down short layers, or blowing more at them.

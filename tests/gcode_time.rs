@@ -144,7 +144,7 @@ proptest! {
         options.filament.max_volumetric_speed = 100.0;
         (options.speed.outer_wall, options.speed.inner_wall, options.speed.infill) = (120.0, 200.0, 200.0);
         (options.speed.skirt, options.speed.brim, options.speed.support) = (150.0, 150.0, 150.0);
-        let input = LayerInput { index: 1, print_z: 0.4, height: 0.2, spiral: None, paths: &paths, ways: &[] };
+        let input = LayerInput { index: 1, print_z: 0.4, height: 0.2, spiral: None, paths: &paths, ways: &[], own: &[] };
         let made = layer_gcode(&input, &options);
         let start = made.summary.stops.expect("text").start;
         let slow = simulated(&moves_of(&made.text, [start.x, start.y, 0.4]), &options.printer);
@@ -173,6 +173,7 @@ fn the_file_takes_as_long_as_its_moves() {
                 spiral: None,
                 paths: &paths[k as usize],
                 ways: &[],
+                own: &[],
             };
             layer_gcode(&input, &options)
         })

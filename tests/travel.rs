@@ -18,8 +18,7 @@ type Outline = Vec<(Polygon, EdgeGrid)>;
 /// The file read back and the outline of each layer.
 fn slice(bytes: &[u8], sets: &[&str]) -> (read::ReadGcode, Vec<Outline>) {
     let settings = Settings::resolve([], sets.iter().copied()).expect("good settings");
-    let named =
-        NamedModel { name: "part".to_owned(), model: load(bytes).expect("a good model"), orientation: None };
+    let named = NamedModel::new("part", load(bytes).expect("a good model"));
     let mut job = Job::new(&[named], settings, &|| 0.0).expect("it fits");
     job.prepare(&|| 0.0).expect("good settings");
     let heights: Vec<f64> = job.specs().iter().map(|s| s.slice_z).collect();

@@ -22,7 +22,7 @@ fn model(bytes: &[u8], chunk: usize) -> Model {
 fn job(settings: &str) -> Job {
     let stl = write_binary(&common::medley());
     let mut job =
-        Job::new(vec![model(&stl, 777)], vec!["medley".to_owned()], settings, &[]).expect("it fits");
+        Job::new(vec![model(&stl, 777)], vec!["medley".to_owned()], settings, &[], vec![]).expect("it fits");
     job.prepare().expect("good settings");
     job
 }
@@ -102,7 +102,7 @@ fn directions_evaluated_elsewhere_are_the_same_and_turn_the_job() {
     let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
     assert_eq!(report["chosen"], 5);
     let layers = |part: Model| {
-        let mut job = Job::new(vec![part], vec!["part".to_owned()], &settings, &[]).expect("it fits");
+        let mut job = Job::new(vec![part], vec!["part".to_owned()], &settings, &[], vec![]).expect("it fits");
         job.prepare().expect("good settings");
         job.layer_count().expect("a running job")
     };
@@ -126,7 +126,8 @@ fn errors_have_their_names_and_causes() {
     assert!(cause.starts_with("truncated: header says 12 triangles, file holds 10"), "{cause}");
 
     let tall = write_binary(&common::cuboid(glam::Vec3::ZERO, glam::Vec3::new(10.0, 10.0, 300.0)));
-    let placed = Job::new(vec![model(&tall, 4096)], vec!["tall".to_owned()], &default_settings(), &[]);
+    let placed =
+        Job::new(vec![model(&tall, 4096)], vec!["tall".to_owned()], &default_settings(), &[], vec![]);
     let Err(tall) = placed else { panic!("accepted") };
     assert_eq!(error_name(tall).0, "FitError");
 }

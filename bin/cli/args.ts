@@ -15,6 +15,14 @@ export interface SettingWords {
   readonly sets: readonly string[];
 }
 
+/** One setting of one model. */
+export interface OwnWord {
+  /** The model by its file's name, with or without ending. */
+  readonly model: string;
+  /** `path=value`. */
+  readonly set: string;
+}
+
 /** A model whose possibilities are weighed against each other. */
 export interface Weighing {
   readonly model: string;
@@ -29,6 +37,7 @@ export type Command =
       readonly models: readonly string[];
       readonly out: string | undefined;
       readonly settings: SettingWords;
+      readonly own: readonly OwnWord[];
       readonly report: string | undefined;
       readonly workers: number;
     }
@@ -51,7 +60,8 @@ export type Command =
 export const help = `Foothold: STL, 3MF or OBJ in, printable G-code out.
 
 usage: foothold slice MODEL... [-o OUT.gcode] [--printer ID] [--material ID] [--quality ID]
-                [--settings F.json] [--set path=value]... [--report R.json] [--workers N]
+                [--settings F.json] [--set path=value]... [--set-for MODEL:path=value]...
+                [--report R.json] [--workers N]
        foothold inspect MODEL [--report R.json]
        foothold draw MODEL (--layer K | --plane y=12.5) -o OUT.svg [--settings F.json] [--set path=value]...
        foothold orient MODEL [--report R.json] [--layer-height T] [--workers N]
@@ -75,6 +85,7 @@ usage: foothold slice MODEL... [-o OUT.gcode] [--printer ID] [--material ID] [--
                    profiles, each over the one before; settings and single values lie over them
   --settings       settings as JSON; may be given again, the later one wins
   --set            one setting: JSON, else a plain word (--set adhesion.kind=skirt)
+  --set-for        one setting of one model, named as its file (--set-for cube:infill.density=1)
   --report         what was made, as JSON
   --workers        engines that work at the same time (default: processors, at most 4)
   --help, --version
@@ -126,7 +137,8 @@ export function parseCommand(words: readonly string[]): Command {
 }
 
 function slice(words: readonly string[]): Command {
-  const options = { ...settingOptions, ...output, ...report, ...workers } as const;
+  const setFor = { 'set-for': { type: 'string', multiple: true } } as const;
+  const options = { ...settingOptions, ...setFor, ...output, ...report, ...workers } as const;
   const { values, positionals } = parsed({ args: [...words], options, allowPositionals: true });
   if (positionals.length === 0) throw new UsageError('slice needs a model');
   return {
@@ -134,9 +146,19 @@ function slice(words: readonly string[]): Command {
     models: positionals,
     out: values.output,
     settings: settingWords(values),
+    own: (values['set-for'] ?? []).map(ownWord),
     report: values.report,
     workers: workerCount(values.workers),
   };
+}
+
+/** A path has no colon, names of files may have some. */
+function ownWord(word: string): OwnWord {
+  const [, model, set] = /^(.+?):([\w.]+=.*)$/s.exec(word) ?? [];
+  if (model === undefined || set === undefined) {
+    throw new UsageError(`--set-for ${word}: expected MODEL:path=value`);
+  }
+  return { model, set };
 }
 
 function inspect(words: readonly string[]): Command {

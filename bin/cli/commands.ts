@@ -1,11 +1,12 @@
 // What each command does.
 import { readFileSync, realpathSync } from 'node:fs';
-import { type Imported, importProfile as importedFrom } from '../../www/src/files/files.ts';
+import { type Imported, importProfile as importedFrom, stem } from '../../www/src/files/files.ts';
+import type { ModelSource, Standing } from '../../www/src/messages.ts';
 import { ids, type Kind, settingsFiles } from '../../www/src/profiles/catalog.ts';
 import { type Layers, parseSaved, type SavedSettings } from '../../www/src/profiles/layers.ts';
 import { partsOf } from '../../www/src/slicer/gcode.ts';
 import { Pool, type Progress } from '../../www/src/slicer/pool.ts';
-import { type Command, type SettingWords, UsageError, type Weighing } from './args.ts';
+import { type Command, type OwnWord, type SettingWords, UsageError, type Weighing } from './args.ts';
 import { openModel } from './disk-file.ts';
 import { FileError, reasonOf } from './errors.ts';
 import { loadFiles } from './files.ts';
@@ -17,7 +18,7 @@ import { adhesionTable, directionTable, importTable, profileTable } from './tabl
 
 type Of<K extends Command['kind']> = Extract<Command, { kind: K }>;
 
-export async function slice({ models, out, settings, report, workers }: Of<'slice'>): Promise<void> {
+export async function slice({ models, out, settings, own, report, workers }: Of<'slice'>): Promise<void> {
   const sources = models.map(openModel);
   const outputs = [out, report].filter((it) => it !== undefined);
   refuseClash(outputs, models);
@@ -26,8 +27,10 @@ export async function slice({ models, out, settings, report, workers }: Of<'slic
     const [gcodeOut, reportOut] = [maybe(out), maybe(report)];
     const progress = progressBar(process.stderr);
     try {
-      await pool.open(await pool.unpack(sources));
-      const gcode = await pool.slice({ settings: all, progress: progress.show });
+      const found = await pool.unpack(sources);
+      await pool.open(found);
+      const standing = await standingOf(pool, found, settings, own);
+      const gcode = await pool.slice({ settings: all, standing, progress: progress.show });
       const target = gcodeOut ?? new Output(gcode.joined.fileName);
       target.write(partsOf(gcode));
       reportOut?.write([gcode.joined.report, '\n']);
@@ -160,6 +163,27 @@ function resolve(pool: Pool, words: SettingWords): Promise<string> {
   const layers = Object.assign({}, ...files.map((it) => it.profiles), words.profiles) as Layers;
   const changes = files.map((it) => JSON.stringify(it.settings));
   return pool.settings([...settingsFiles(layers), ...changes], words.sets);
+}
+
+/** Every model once, to be arranged, with the settings that are its own; the files name models as --set-for does. */
+async function standingOf(
+  pool: Pool,
+  sources: readonly ModelSource[],
+  words: SettingWords,
+  own: readonly OwnWord[],
+): Promise<Standing> {
+  const files = words.files.flatMap((file) => Object.entries(readSettings(file).models));
+  const isNamed = (name: string, source: ModelSource): boolean => name === source.name || name === stem(source.name);
+  for (const name of [...files.map(([name]) => name), ...own.map(({ model }) => model)]) {
+    if (sources.some((source) => isNamed(name, source))) continue;
+    throw new UsageError(`there is no model "${name}": there are ${sources.map(({ name }) => stem(name)).join(', ')}`);
+  }
+  const ownOf = (source: ModelSource): Promise<string> =>
+    pool.own(
+      files.filter(([name]) => isNamed(name, source)).map(([, settings]) => JSON.stringify(settings)),
+      own.filter(({ model }) => isNamed(model, source)).map(({ set }) => set),
+    );
+  return { models: [...sources.keys()], placements: [], own: await Promise.all(sources.map(ownOf)) };
 }
 
 function readSettings(file: string): SavedSettings {

@@ -3,7 +3,7 @@
 use super::attachment::length_within;
 use super::ground::Ground;
 use super::segments::{Segment, Segments};
-use super::{AdhesionFigures, FirstLayer, Foundation};
+use super::{AdhesionFigures, FirstLayer, Foundation, TeethFigures};
 use crate::polygon::{Contour, DVec2};
 use crate::region::{Bead, Path, Width};
 
@@ -34,6 +34,44 @@ pub(super) fn measure(first: &FirstLayer, ground: &Ground, foundation: &mut Foun
         attachment_share: if outlines > 0.0 { held / outlines } else { 0.0 },
         teeth: foundation.figures.teeth,
     };
+}
+
+impl AdhesionFigures {
+    /// The figures of several first layers, each with the length of its outlines, mm.
+    pub fn sum(of: &[(AdhesionFigures, f64)]) -> AdhesionFigures {
+        if let [(figures, _)] = of {
+            return *figures;
+        }
+        let outlines: f64 = of.iter().map(|(_, length)| length).sum();
+        let add =
+            |value: fn(&AdhesionFigures) -> f64| of.iter().map(|(figures, _)| value(figures)).sum::<f64>();
+        let held: f64 = of.iter().map(|(figures, length)| figures.attachment_share * length).sum();
+        AdhesionFigures {
+            filament_mm3: add(|f| f.filament_mm3),
+            bed_contact_mm2: add(|f| f.bed_contact_mm2),
+            attachment_mm: add(|f| f.attachment_mm),
+            attachment_share: if outlines > 0.0 { held / outlines } else { 0.0 },
+            teeth: of.iter().filter_map(|(figures, _)| figures.teeth).reduce(TeethFigures::add),
+        }
+    }
+}
+
+impl TeethFigures {
+    /// The counts of both; without placed teeth there is no bite to compare.
+    fn add(self, other: TeethFigures) -> TeethFigures {
+        let (low, high) = match (self.placed, other.placed) {
+            (0, _) => (other.bite_min_mm, other.bite_max_mm),
+            (_, 0) => (self.bite_min_mm, self.bite_max_mm),
+            _ => (self.bite_min_mm.min(other.bite_min_mm), self.bite_max_mm.max(other.bite_max_mm)),
+        };
+        TeethFigures {
+            placed: self.placed + other.placed,
+            left_out: self.left_out + other.left_out,
+            shallow: self.shallow + other.shallow,
+            bite_min_mm: low,
+            bite_max_mm: high,
+        }
+    }
 }
 
 /// Length of the outlines within half a line and [`TOUCH_MM`] of a centre line, mm. The beads of a kind

@@ -158,3 +158,25 @@ crate::options! {
         tab: bool = false, "Pull tab";
     }
 }
+
+impl AdhesionOptions {
+    /// How far the base layer reaches at most beyond parts whose boxes have a side of at least `side` mm;
+    /// `line_width` is `first_layer.line_width`, mm.
+    pub fn reach(&self, side: f64, line_width: f64) -> f64 {
+        let AdhesionOptions { skirt, brim, raft, teeth, .. } = self;
+        match self.kind {
+            AdhesionKind::None => 0.0,
+            AdhesionKind::Skirt => {
+                // A loop around a box is at least twice as long as its longer side.
+                let for_length = (skirt.min_length / (2.0 * side).max(1.0)).ceil();
+                skirt.distance + for_length.max(f64::from(skirt.loops)) * line_width
+            }
+            AdhesionKind::Brim => brim.gap + brim.width + brim.line_width,
+            AdhesionKind::Raft => raft.margin + raft.base_line_width,
+            AdhesionKind::Teeth => {
+                let tab = if teeth.tab { super::teeth::tab::LENGTH_MM } else { 0.0 };
+                teeth.offset + f64::from(teeth.rail_lines) * line_width + tab
+            }
+        }
+    }
+}

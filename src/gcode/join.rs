@@ -6,8 +6,8 @@ use super::start::{PrintFacts, end_code, event_code, follow, start_code};
 use super::tool::Change;
 use super::writer::Writer;
 use super::{
-    FILAMENT_STEPS, GcodeError, GcodeOptions, LayerSummary, Limits, Move, Place, RoleUse, filament_area,
-    label, move_times,
+    FILAMENT_STEPS, FilamentOptions, GcodeError, GcodeOptions, LayerSummary, Limits, Move, Place, RoleUse,
+    filament_area, label, move_times,
 };
 use crate::region::{Bead, Role};
 use std::collections::BTreeMap;
@@ -18,6 +18,10 @@ const PRIME_MARGIN: [f64; 2] = [5.0, 3.0];
 
 /// Width of the prime line in nozzle diameters: wide, so that it sticks and carries much.
 const PRIME_WIDTH: f64 = 1.5;
+
+/// How far the nozzle rises over all that is printed on the way to the next of models printed one after
+/// another, mm: corners that have warped and strings stand up.
+const OVER_MODELS: f64 = 2.0;
 
 /// What the file says about itself besides moves.
 #[derive(Debug, Clone, Copy, Default)]
@@ -73,7 +77,8 @@ pub struct Totals {
     pub by_role: BTreeMap<Role, RoleUse>,
 }
 
-/// Writes what surrounds the layers. `layers` are all layers of the print from the bed upwards.
+/// Writes what surrounds the layers. `layers` are all layers in printing order: from the bed upwards, and
+/// from the bed again where models are printed one after another.
 ///
 /// Fails only if start or end code use a placeholder wrongly ([`super::check_templates`]).
 pub fn join(
@@ -84,7 +89,7 @@ pub fn join(
     let facts = PrintFacts {
         layer_count: layers.len(),
         first_layer_height: layers.first().map_or(0.0, |l| l.height),
-        print_height: layers.last().map_or(0.0, |l| l.print_z),
+        print_height: layers.iter().map(|l| l.print_z).fold(0.0, f64::max),
     };
     let start_text = start_code(options, facts)?;
     let end_text = end_code(options, facts)?;
@@ -96,7 +101,10 @@ pub fn join(
     let mut ways = Vec::with_capacity(layers.len());
     for (k, layer) in layers.iter().enumerate() {
         let due = places.iter().zip(&options.output.events).filter(|&(&place, _)| place == Some(k));
-        let stops = due.map(|(_, event)| route.stop_for(event, facts)).collect::<Result<_, _>>()?;
+        let mut stops = due.map(|(_, event)| route.stop_for(event, facts)).collect::<Result<Vec<_>, _>>()?;
+        if let Some(start) = next_model(layers, k) {
+            stops.push(route.leave_for(start));
+        }
         ways.push(Way { stops, ..route.reach(layer) });
     }
     let end = route.end(&end_text);
@@ -143,19 +151,27 @@ pub fn format_duration(seconds: f64) -> String {
     parts[first..].iter().map(|(n, unit)| format!("{n}{unit}")).collect::<Vec<_>>().join(" ")
 }
 
+/// Where the model begins whose first layer is the `k`th, if others were printed before it.
+fn next_model(layers: &[LayerSummary], k: usize) -> Option<Place> {
+    let is_first = k > 0 && layers[k].index == 0;
+    let stops = layers[k..].iter().filter(|_| is_first).find_map(|layer| layer.stops)?;
+    Some(Place::of(stops.start))
+}
+
 /// Moves between two stops that belong to no layer.
 #[derive(Default)]
 struct Way {
     /// Height of the beads among them, micrometres.
     bead_height: Option<i32>,
-    /// What happens before the moves by the user's wish.
+    /// What happens before the moves: events, and the way to the next of models printed one after
+    /// another.
     stops: Vec<Stop>,
     moves: Vec<Move>,
     /// Seconds that pass before the moves (for text of other hands) and with them.
     time_s: f64,
 }
 
-/// An event between two layers.
+/// A stay between two layers.
 struct Stop {
     /// Moves before its text.
     moves: Vec<Move>,
@@ -170,6 +186,8 @@ struct Route<'a> {
     limits: Limits,
     at: Place,
     z: i32,
+    /// Top of the highest layer so far, micrometres.
+    highest: i32,
     /// Fan in force; `None` if text of other hands may have changed it.
     fan: Option<u8>,
     tool: u8,
@@ -193,6 +211,7 @@ impl<'a> Route<'a> {
             limits: Limits::of(&options.printer),
             at: Place::default(),
             z: 0,
+            highest: 0,
             fan: Some(0),
             tool: 0,
             retracted: 0,
@@ -272,6 +291,7 @@ impl<'a> Route<'a> {
         let time_s = self.book(&moves);
         self.at = Place::of(stops.end);
         self.z = micrometres(layer.print_z);
+        self.highest = self.highest.max(self.z);
         self.wipe = layer.wipe.iter().map(|&p| Place::of(p)).collect();
         self.fan = Some(layer.fan[1]);
         self.tool = layer.tools[1];
@@ -307,19 +327,33 @@ impl<'a> Route<'a> {
 
     /// Retracts and rises above the part, and goes to the back of the bed unless the firmware parks.
     fn leave_part(&mut self, firmware_parks: bool) -> Vec<Move> {
-        let GcodeOptions { printer, retraction, speed, .. } = self.options;
+        let mut moves = self.rise_to(self.z + micrometres(PAUSE_LIFT));
+        if !firmware_parks {
+            let to = Place::of(self.options.printer.parking());
+            moves.push(Move::Travel { to, feed: feed_rate(self.options.speed.travel) });
+        }
+        moves
+    }
+
+    /// Goes high over all that is printed to above the place where the next model begins, and waits there
+    /// for the temperatures of a first layer.
+    fn leave_for(&mut self, start: Place) -> Stop {
+        let mut moves = self.rise_to(self.highest + micrometres(OVER_MODELS));
+        moves.push(Move::Travel { to: start, feed: feed_rate(self.options.speed.travel) });
+        Stop { time_s: self.book(&moves), moves, text: first_temperatures(&self.options.filament) }
+    }
+
+    /// Retracts, and rises to this height as far as the printer goes, but never goes down.
+    fn rise_to(&mut self, height: i32) -> Vec<Move> {
+        let GcodeOptions { printer, retraction, .. } = self.options;
         let mut moves = Vec::new();
         let pulled = filament_steps(retraction.length) - self.retracted;
         if pulled > 0 {
             moves.push(Move::Filament { filament: -pulled, feed: feed_rate(retraction.speed) });
         }
-        let z = (self.z + micrometres(PAUSE_LIFT)).min(micrometres(printer.height)).max(self.z);
+        let z = height.min(micrometres(printer.height)).max(self.z);
         if z > self.z {
             moves.push(Move::Lift { z, feed: z_feed(self.options) });
-        }
-        if !firmware_parks {
-            let to = Place::of(printer.parking());
-            moves.push(Move::Travel { to, feed: feed_rate(speed.travel) });
         }
         self.wipe.clear();
         moves
@@ -417,6 +451,19 @@ impl<'a> Route<'a> {
     }
 }
 
+/// Goes back to the temperatures of a first layer where later ones have others, and waits for them.
+fn first_temperatures(filament: &FilamentOptions) -> String {
+    let FilamentOptions { first_layer_nozzle_temp, first_layer_bed_temp, .. } = filament;
+    let mut text = String::new();
+    if filament.bed_temp != *first_layer_bed_temp {
+        text += &format!("M190 S{first_layer_bed_temp}\n");
+    }
+    if filament.nozzle_temp != *first_layer_nozzle_temp {
+        text += &format!("M109 S{first_layer_nozzle_temp}\n");
+    }
+    text
+}
+
 /// Puts the file together.
 struct FileWriter<'a> {
     options: &'a GcodeOptions,
@@ -493,7 +540,7 @@ impl<'a> FileWriter<'a> {
         writer.length_comment(b";Z:", micrometres(layer.print_z));
         writer.length_comment(b";HEIGHT:", micrometres(layer.height));
         self.glue = writer.out;
-        if k == 1 {
+        if layer.index == 1 {
             self.later_temperatures();
         }
         self.progress(self.passed_s);

@@ -26,6 +26,7 @@ mod label;
 mod options;
 mod plan;
 pub mod read;
+mod sequence;
 mod start;
 mod tool;
 mod writer;
@@ -45,6 +46,7 @@ pub use options::{
     RetractionOptions, SpeedOptions,
 };
 pub use plan::plan_layer;
+pub use sequence::{PrintOptions, Sequence};
 pub use start::{GcodeError, check_templates};
 pub use tool::TOOLS;
 pub use writer::type_name;
@@ -77,6 +79,9 @@ pub struct LayerInput<'a> {
     pub paths: &'a [Path],
     /// The way to each path. A path without an entry is reached straight across an outline.
     pub ways: &'a [Way],
+    /// Beads by other options than the layer's: from the path at the first place on, by these, and so
+    /// on. What holds for the layer as a whole (printer, material, travels, cooling) stays the layer's.
+    pub own: &'a [(usize, &'a GcodeOptions)],
 }
 
 /// A layer's text and what the rest of the program needs to know about it.
@@ -91,7 +96,7 @@ pub struct LayerGcode {
 /// What [`join()`] and the report need of a layer.
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct LayerSummary {
-    /// Place in the print, 0 at the bed.
+    /// Place in the print, 0 at the bed; of models printed one after another each begins anew.
     pub index: u32,
     /// Height of the nozzle while printing, mm.
     pub print_z: f64,

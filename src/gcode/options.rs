@@ -65,6 +65,12 @@ crate::options! {
         forbidden: Vec<[f64; 4]> = Vec::new(), "Forbidden zones";
         /// Highest print.
         height: f64 = 250.0, "Print height", "mm", 10.0..=5000.0;
+        /// How far the head reaches from the nozzle to any side. Models that are printed one after another
+        /// (print.sequence) must be that far apart.
+        extruder_clearance_radius: f64 = 45.0, "Clearance around the nozzle", "mm", 0.0..=500.0;
+        /// From the nozzle's tip up to what reaches across the bed, such as the gantry. Of models that are
+        /// printed one after another only the tallest may be higher.
+        extruder_clearance_height: f64 = 25.0, "Clearance below the gantry", "mm", 0.0..=5000.0;
         /// Number of extruders. The second one may print supports (support.tool).
         extruders: u32 = 1, "Extruders", "", 1.0..=2.0;
         /// What a change of tools takes, without heating; only the time estimate needs it.

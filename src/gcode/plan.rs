@@ -64,7 +64,11 @@ pub fn plan_layer(layer: &LayerInput<'_>, options: &GcodeOptions) -> LayerPlan {
     let across = Way::ACROSS;
     let told = layer.ways.iter().chain(std::iter::repeat(&across));
     let tools = options.tools_of(layer.paths);
-    for ((path, way), tool) in layer.paths.iter().zip(told).zip(tools) {
+    let mut own = layer.own.iter().peekable();
+    for (place, ((path, way), tool)) in layer.paths.iter().zip(told).zip(tools).enumerate() {
+        while let Some((_, beads)) = own.next_if(|(from, _)| *from <= place) {
+            planner.beads = beads;
+        }
         planner.path(path, way, tool);
     }
     planner.enter_object(None);
@@ -117,6 +121,8 @@ pub(super) fn z_feed(options: &GcodeOptions) -> u32 {
 
 struct Planner<'a> {
     options: &'a GcodeOptions,
+    /// By these the beads of the model are laid that is printed.
+    beads: &'a GcodeOptions,
     index: u32,
     height: f64,
     z: i32,
@@ -186,6 +192,7 @@ impl<'a> Planner<'a> {
         let points: usize = layer.paths.iter().map(|p| p.points.len() + 1).sum();
         Planner {
             options,
+            beads: options,
             index: layer.index,
             height: layer.height,
             z: micrometres(layer.print_z - if layer.spiral.is_some() { layer.height } else { 0.0 }),
@@ -298,7 +305,7 @@ impl<'a> Planner<'a> {
     fn closing_end(&self, path: &Path, places: &[Place]) -> Option<Place> {
         let (&first, &last) = (places.first()?, places.last()?);
         let gap = match path.role {
-            Role::OuterWall | Role::InnerWall | Role::OverhangWall => self.options.seam_gap,
+            Role::OuterWall | Role::InnerWall | Role::OverhangWall => self.beads.seam_gap,
             _ => 0.0,
         };
         let length = last.distance(first);
@@ -339,17 +346,17 @@ impl<'a> Planner<'a> {
 
     /// Height of a role's beads, mm.
     fn bead_height(&self, role: Role) -> f64 {
-        if role == Role::Ironing { self.height * self.options.ironing_flow } else { self.height }
+        if role == Role::Ironing { self.height * self.beads.ironing_flow } else { self.height }
     }
 
     /// Feed rate of a bead: its role's, the first layer's and the nozzle's limit.
     fn bead_feed(&self, role: Role, hang: f64, area: f64) -> u32 {
-        let speed = &self.options.speed;
+        let speed = &self.beads.speed;
         let wanted = match role {
             Role::OverhangWall => speed.outer_wall + (speed.overhang_wall - speed.outer_wall) * hang,
             _ => speed.of(role),
         };
-        let layer = if self.index == 0 { self.options.first_layer_speed } else { f64::INFINITY };
+        let layer = if self.index == 0 { self.beads.first_layer_speed } else { f64::INFINITY };
         // An area of 0 gives an infinite limit, which the others overrule.
         let melted = self.filament().max_volumetric_speed / area;
         feed_rate(wanted.min(layer).min(melted))
@@ -366,8 +373,8 @@ impl<'a> Planner<'a> {
             self.stated_height = height;
             self.moves.push(Move::Height(micrometres(height) as u32));
         }
-        let first = if self.index == 0 { self.options.acceleration.first_layer } else { 0.0 };
-        let own = [first, self.options.acceleration.of(role), self.options.printer.acceleration];
+        let first = if self.index == 0 { self.beads.acceleration.first_layer } else { 0.0 };
+        let own = [first, self.beads.acceleration.of(role), self.options.printer.acceleration];
         self.set_acceleration(own.into_iter().find(|&a| a > 0.0).unwrap_or_default());
     }
 

@@ -197,7 +197,8 @@ impl Builder {
         let mut below = 0.0;
         for layer in &mut self.layers {
             if layer.height == 0.0 && !layer.strands.is_empty() {
-                layer.height = (layer.z - below).max(0.0);
+                // Below the layer before it the next model begins.
+                layer.height = if layer.z < below { layer.z } else { layer.z - below };
             }
             below = layer.z;
         }

@@ -1,7 +1,7 @@
 //! What each kind of base layer would come to on the same part.
 
 use super::report::AdhesionReport;
-use super::{Clock, Job, JobError};
+use super::{Clock, JobError, Print};
 use crate::adhesion::{AdhesionKind, AdhesionOptions, Foundation, Recommendation, Warping, recommend};
 use crate::gcode::{LayerInput, layer_gcode};
 use crate::polygon::PolygonSet;
@@ -27,7 +27,7 @@ pub struct Alternatives {
     pub recommendation: Recommendation,
 }
 
-impl Job {
+impl Print {
     /// Skirt, brim, raft and teeth beside each other, whatever the settings ask for: material, time,
     /// bed contact and attachment of each, for the part without supports.
     pub fn compare(&self, clock: Clock) -> Result<Vec<AdhesionReport>, JobError> {
@@ -45,7 +45,7 @@ impl Job {
             kinds.map(|kind| self.try_kind(kind, outline_of(kind), clock)).collect::<Result<_, _>>()?;
         let no_supports = PolygonSet::EMPTY;
         let first = self.first_layer(&outlines[0], &no_supports);
-        let warping = Warping::of_material(&self.settings.filament.material);
+        let warping = Warping::of_material(&self.settings().filament.material);
         Ok(Alternatives { kinds, recommendation: recommend(&first, warping) })
     }
 
@@ -55,7 +55,7 @@ impl Job {
         outline: &PolygonSet,
         clock: Clock,
     ) -> Result<Alternative, JobError> {
-        let options = AdhesionOptions { kind, ..self.settings.adhesion.clone() };
+        let options = AdhesionOptions { kind, ..self.settings().adhesion.clone() };
         let started = clock();
         let foundation = self.lay_foundation(&options, outline, &PolygonSet::EMPTY)?;
         let report = AdhesionReport::new(kind, &foundation.figures, clock() - started);
@@ -65,7 +65,7 @@ impl Job {
 
     /// Time to print the beads of a foundation by themselves, s, travels left out.
     fn time_of(&self, foundation: &Foundation) -> f64 {
-        let layers = &self.settings.layers;
+        let layers = &self.settings().layers;
         let beside = (0u32..).zip(&foundation.layers);
         let beside =
             beside.map(|(i, paths)| (i, if i == 0 { layers.first_height } else { layers.height }, paths));
@@ -74,8 +74,8 @@ impl Job {
     }
 
     fn bead_time(&self, index: u32, height: f64, paths: &[Path]) -> f64 {
-        let input = LayerInput { index, print_z: height, height, spiral: None, paths, ways: &[] };
-        let mut options = self.settings.gcode_options();
+        let input = LayerInput { index, print_z: height, height, spiral: None, paths, ways: &[], own: &[] };
+        let mut options = self.settings().gcode_options();
         // The layer's other beads would make it last.
         options.cooling.min_layer_time = 0.0;
         let used = layer_gcode(&input, &options).summary.by_role;

@@ -7,8 +7,10 @@
 mod check;
 mod compare;
 mod place;
+mod print;
 mod range;
 mod report;
+mod sequence;
 mod tools;
 mod turn;
 mod vase;
@@ -19,48 +21,34 @@ use glam::DMat4;
 
 pub use compare::{Alternative, Alternatives};
 pub use place::{FitError, Placed, arrange, place_as_told, place_on_bed};
+pub use print::Print;
 pub use range::{PRINT_RESOLUTION, RangeMeta, RangePlan, RangeResult, Share};
+pub use sequence::SequenceError;
 pub use tools::ToolError;
 use tools::check_tools;
 use turn::{Turned, turn_models, turn_standing};
 
 pub use report::{AdhesionReport, FilamentReport, ModelReport, Report, SupportReport, Timing, Warning};
 
-use crate::adhesion::{
-    AdhesionError, AdhesionKind, AdhesionOptions, AdhesionWarning, FirstLayer, Foundation, RaftLayer,
-    TeethDrawing, lay_foundation,
-};
+use print::{BodyRange, Prepared};
+use range::BodyPiece;
+
+use crate::adhesion::{AdhesionError, AdhesionFigures, AdhesionKind, AdhesionWarning, TeethDrawing};
 use crate::gcode::{
     FileNotes, GcodeError, GcodeOptions, Joined, LabelledObject, LayerSummary, event_layers, format_duration,
     join, labelled_objects,
 };
 use crate::mesh::LoadedModel;
-use crate::mesh::Mesh;
+use crate::mesh::{Box3, Mesh};
 use crate::orientation::{OrientationError, OrientationReport};
-use crate::polygon::PolygonSet;
 use crate::polygon::measure::Bounds;
-use crate::region::first_layer::draw_in;
-use crate::region::{Bead, Path};
-use crate::settings::Settings;
-use crate::slice::heights::plan_layers_of;
-use crate::slice::{Axis, LayerOptions, LayerSpec, slice_mesh};
+use crate::settings::{OwnSettings, Settings, SettingsError};
+use crate::slice::{LayerOptions, LayerSpec};
 use crate::sort::StableSort;
-use crate::support::{
-    SupportError, SupportInput, SupportMethod, SupportOptions, SupportWarning, Supports, check_options,
-    plan_supports,
-};
-use crate::toolpath::infill::line_density;
-use crate::toolpath::seam::{SeamLine, SeamPosition, chain_seams};
-use crate::toolpath::walls::lay_walls;
+use crate::support::{SupportError, SupportMethod, SupportWarning};
 
 /// Milliseconds since some fixed moment; the core has no clock of its own.
 pub type Clock<'a> = &'a dyn Fn() -> f64;
-
-/// Layers on which the density of sparse infill is measured.
-const DENSITY_SAMPLES: usize = 5;
-
-/// Seams are chained on every so many layers.
-const SEAM_STEP: usize = 5;
 
 /// A model with the name it is known by, such as its file's.
 #[derive(Debug, Clone)]
@@ -69,14 +57,16 @@ pub struct NamedModel {
     pub name: String,
     /// The checked mesh and what was found in it.
     pub model: LoadedModel,
+    /// Settings of its own.
+    pub own: OwnSettings,
     /// Its directions, where they were computed before, with the job's orientation options.
     pub orientation: Option<OrientationReport>,
 }
 
 impl NamedModel {
-    /// A model whose directions are not known.
+    /// A model with the plate's settings, whose directions are not known.
     pub fn new(name: impl Into<String>, model: LoadedModel) -> NamedModel {
-        NamedModel { name: name.into(), model, orientation: None }
+        NamedModel { name: name.into(), model, own: OwnSettings::default(), orientation: None }
     }
 }
 
@@ -97,6 +87,15 @@ pub enum JobError {
     Gcode(GcodeError),
     /// Two tools cannot be used as asked.
     Tools(ToolError),
+    /// A model's own settings cannot be used.
+    OwnSettings {
+        /// The model's name.
+        model: String,
+        /// What is wrong.
+        cause: SettingsError,
+    },
+    /// Models cannot be printed one after another as they stand.
+    Sequence(SequenceError),
     /// [`Job::finish`] was called before this layer was added: a bug of the caller.
     LayerMissing {
         /// The first missing layer.
@@ -114,6 +113,8 @@ impl fmt::Display for JobError {
             JobError::Adhesion(error) => error.fmt(f),
             JobError::Gcode(error) => error.fmt(f),
             JobError::Tools(error) => error.fmt(f),
+            JobError::OwnSettings { model, cause } => write!(f, "{model}: {cause}"),
+            JobError::Sequence(error) => error.fmt(f),
             JobError::LayerMissing { index } => write!(f, "layer {index} was never worked"),
         }
     }
@@ -132,24 +133,14 @@ impl JobError {
 pub struct Job {
     settings: Settings,
     name: String,
-    mesh: Mesh,
-    /// Lowest and highest z of each triangle, so that a range finds its triangles in one pass.
-    spans: Vec<[f32; 2]>,
-    specs: Vec<LayerSpec>,
+    /// In printing order; at least one.
+    prints: Vec<Print>,
+    /// Own settings of models, as (path, value).
+    own: Vec<(String, String)>,
     placements: Vec<DMat4>,
     objects: Vec<LabelledObject>,
-    /// For each layer the beads of base layers and supports, in printing order.
-    laid: Vec<Vec<Path>>,
-    /// See [`RangePlan::seams`].
-    seams: Vec<SeamLine>,
-    /// See [`RangePlan::line_density`].
-    line_density: f64,
-    /// For each layer the beads of the second tool that come after the part.
-    after: Vec<Vec<Path>>,
     orientation: Option<OrientationReport>,
     adhesion: AdhesionReport,
-    /// Rail and teeth to look at; after [`Job::prepare`], only with teeth.
-    teeth: Option<TeethDrawing>,
     support: Option<SupportReport>,
     /// What is known of each layer so far.
     layers: Vec<Option<LayerSummary>>,
@@ -165,7 +156,8 @@ impl Job {
         let settings = checked(settings)?;
         let turned = turn_models(models, &settings)?;
         let meshes: Vec<&Mesh> = turned.meshes.iter().collect();
-        let mut placed = place_on_bed(&meshes, &settings.printer).map_err(JobError::Fit)?;
+        let own = sequence::own_settings(models, &settings)?;
+        let mut placed = place_on_bed(&meshes, &settings, &own).map_err(JobError::Fit)?;
         placed.placements =
             placed.placements.iter().zip(&turned.turns).map(|(place, turn)| *place * *turn).collect();
         Job::standing(models, placed, turned, settings, started_ms)
@@ -194,59 +186,56 @@ impl Job {
         settings: Settings,
         started_ms: f64,
     ) -> Result<Job, JobError> {
-        let height = mesh.bounds().map_or(0.0, |b| f64::from(b.max.z));
-        if height <= 0.0 {
-            return Err(JobError::Empty);
-        }
-        let specs = plan_layers_of(&mesh, height, &settings.layers);
-        let z_span = |t: usize| {
-            let [a, b, c] = mesh.corners(t).map(|v| v.z);
-            [a.min(b).min(c), a.max(b).max(c)]
-        };
         let remarks = check::check(&settings, &footprints);
         let names = models.iter().map(|m| m.name.as_str());
         let objects = labelled_objects(names.zip(footprints), &settings.printer);
+        let prints = sequence::prints_of(models, mesh, &settings)?;
         Ok(Job {
             name: models.first().map_or_else(String::new, |m| m.name.clone()),
-            spans: (0..mesh.triangles.len()).map(z_span).collect(),
-            layers: vec![None; specs.len()],
+            layers: Vec::new(),
             warnings: model_warnings(models).into_iter().chain(turned.warnings).chain(remarks).collect(),
             orientation: turned.report,
-            laid: Vec::new(),
-            seams: Vec::new(),
-            line_density: settings.infill.density,
-            teeth: None,
-            after: Vec::new(),
             support: None,
+            own: models.iter().flat_map(own_lines).collect(),
+            prints,
             objects,
             adhesion: AdhesionReport::default(),
             timing: Timing::default(),
             settings,
-            mesh,
-            specs,
             placements,
             started_ms,
         })
     }
 
-    /// Number of layers; known after [`Job::prepare`].
+    /// Number of layers in the file; known after [`Job::prepare`].
     pub fn layer_count(&self) -> usize {
-        self.specs.len()
+        self.prints.iter().map(|print| print.specs().len()).sum()
     }
 
-    /// The layer plan, from the bed up.
+    /// What is printed first: all of the plate, unless its models are printed one after another.
+    pub fn first_print(&self) -> &Print {
+        // Every job has a print: without models there is an error.
+        &self.prints[0]
+    }
+
+    /// The layer plan of the first print, from the bed up.
     pub fn specs(&self) -> &[LayerSpec] {
-        &self.specs
+        self.first_print().specs()
     }
 
-    /// All models in bed coordinates.
+    /// The models of the first print in bed coordinates.
     pub fn mesh(&self) -> &Mesh {
-        &self.mesh
+        self.first_print().mesh()
     }
 
     /// The settings of the job.
     pub fn settings(&self) -> &Settings {
         &self.settings
+    }
+
+    /// The printable area of the bed.
+    pub fn bed(&self) -> Bounds {
+        self.settings.printer.bed()
     }
 
     /// Adds the time that reading the models took.
@@ -256,68 +245,33 @@ impl Job {
 
     /// Works out what all layers share. To be called once, before any range; a raft adds layers.
     pub fn prepare(&mut self, clock: Clock) -> Result<(), JobError> {
-        let started = clock();
-        let supports = self.plan_supports()?;
-        let supported = clock();
-        let adhesion = &self.settings.adhesion;
-        let kind = adhesion.kind;
-        let foundation = self.lay_foundation(adhesion, &self.first_outline(kind), &supports.bed_area())?;
-        self.teeth.clone_from(&foundation.drawing);
-        self.adhesion = AdhesionReport::new(kind, &foundation.figures, clock() - supported);
-        self.timing.support = supported - started;
-        self.timing.adhesion = clock() - supported;
-        self.line_density = self.infill_line_density();
-        self.seams = self.chain_seams();
-        self.warnings.extend(foundation.warnings.iter().map(adhesion_warning));
-        self.warnings.extend(supports.warnings().iter().map(support_warning));
-        self.support = SupportReport::of(&supports);
-        self.laid = (0..self.specs.len()).map(|k| supports.layer_paths(k)).collect();
-        if foundation.raft.is_empty() {
-            // The base is printed first: it keeps what follows on the bed.
-            for (place, paths) in self.laid.iter_mut().zip(foundation.layers) {
-                place.splice(..0, paths);
-            }
-        } else {
-            self.raise_on(foundation);
+        let mut adhesion = Vec::new();
+        let mut slicing_ms = 0.0;
+        for k in 0..self.prints.len() {
+            let Prepared { support, mut warnings, adhesion_ms, support_ms, .. } = {
+                let prepared = self.prints[k].prepare(clock)?;
+                adhesion.push((prepared.adhesion, prepared.outline_mm));
+                prepared
+            };
+            let before = self.layers_before(k);
+            warnings.iter_mut().for_each(|warning| warning.raise(before));
+            self.warnings.extend(warnings);
+            self.support = SupportReport::sum(self.support.take(), support, before);
+            slicing_ms += adhesion_ms;
+            self.timing.support += support_ms;
         }
-        let arranged = tools::order_tools(&mut self.laid, &self.mesh, &self.specs, &self.settings);
-        self.after = arranged.map_err(JobError::Tools)?;
-        self.layers = vec![None; self.specs.len()];
+        self.timing.adhesion += slicing_ms;
+        self.adhesion =
+            AdhesionReport::new(self.settings.adhesion.kind, &AdhesionFigures::sum(&adhesion), slicing_ms);
+        sequence::check(&self.prints).map_err(JobError::Sequence)?;
+        self.layers = vec![None; self.layer_count()];
         self.warn_of_late_events();
         Ok(())
     }
 
-    /// See [`RangePlan::line_density`]; from a few layers spread over the part's height.
-    fn infill_line_density(&self) -> f64 {
-        let Settings { walls, infill, layers, .. } = &self.settings;
-        if infill.density >= 1.0 {
-            return infill.density;
-        }
-        let of_sample = |i: usize| self.specs[(2 * i + 1) * self.specs.len() / (2 * DENSITY_SAMPLES)].slice_z;
-        let heights: Vec<f64> = (0..DENSITY_SAMPLES).map(of_sample).collect();
-        let bead = Bead { width: walls.width, height: layers.height };
-        let sections = self.sections_at(&heights).into_iter();
-        let inside: Vec<PolygonSet> =
-            sections.map(|area| lay_walls(&area, bead, walls.count).inner).collect();
-        line_density(&inside, bead, infill)
-    }
-
-    /// See [`RangePlan::seams`]; from every few layers, which is enough to follow a corner.
-    fn chain_seams(&self) -> Vec<SeamLine> {
-        if self.settings.seam.position != SeamPosition::Aligned || self.settings.walls.count == 0 {
-            return Vec::new();
-        }
-        let every_few = self.specs.iter().step_by(SEAM_STEP);
-        let mut heights: Vec<f64> = every_few.chain(self.specs.last()).map(|s| s.slice_z).collect();
-        heights.dedup();
-        let sections = self.sections_at(&heights);
-        let sections: Vec<(f64, PolygonSet)> = heights.into_iter().zip(sections).collect();
-        chain_seams(&sections)
-    }
-
     /// Events above the print never happen.
     fn warn_of_late_events(&mut self) {
-        let tops: Vec<f64> = self.specs.iter().map(|spec| spec.print_z).collect();
+        let tops: Vec<f64> = self.prints.iter().flat_map(|p| p.specs()).map(|spec| spec.print_z).collect();
         let places = event_layers(&self.settings.gcode.events, &tops);
         for i in (0..places.len()).filter(|&i| places[i].is_none()) {
             let top = tops.last().copied().unwrap_or(0.0);
@@ -329,152 +283,56 @@ impl Job {
         }
     }
 
-    /// Supports of the whole part.
-    fn plan_supports(&self) -> Result<Supports, JobError> {
-        self.supports(&self.settings.support)
-    }
-
-    /// Supports of the whole part by other settings than the job's.
-    pub fn supports(&self, options: &SupportOptions) -> Result<Supports, JobError> {
-        check_options(options).map_err(JobError::Support)?;
-        if options.method == SupportMethod::None {
-            return Ok(Supports::default());
-        }
-        let areas = self.areas();
-        let input = SupportInput { mesh: &self.mesh, layers: &self.specs, areas: &areas };
-        plan_supports(&input, options, &mut |_, _| true).map_err(JobError::Support)
-    }
-
-    /// The part's section in each of its layers.
-    pub fn areas(&self) -> Vec<PolygonSet> {
-        self.sections_at(&self.part_heights())
-    }
-
-    /// The part's section at each of these heights, mm, as it is to be printed.
-    fn sections_at(&self, heights: &[f64]) -> Vec<PolygonSet> {
-        let sections = slice_mesh(&self.mesh, Axis::Z, heights, PRINT_RESOLUTION);
-        sections.into_iter().map(|s| self.settings.walls.expanded(s.area)).collect()
-    }
-
-    /// Where the part's layers are cut, mm.
-    pub fn part_heights(&self) -> Vec<f64> {
-        // Layers of a raft are cut below the part.
-        self.specs.iter().map(|s| s.slice_z).filter(|&z| z > 0.0).collect()
-    }
-
-    /// Rail, teeth and the outline they are measured to; known after [`Job::prepare`].
-    pub fn teeth_drawing(&self) -> Option<&TeethDrawing> {
-        self.teeth.as_ref()
-    }
-
-    /// The part's first layer as it will be printed on or beside this kind of base.
-    pub fn first_outline(&self, kind: AdhesionKind) -> PolygonSet {
-        let height = self.part_heights().first().copied().unwrap_or_default();
-        let section = self.sections_at(&[height]).pop().unwrap_or_default();
-        // On a raft nothing is squeezed against the bed.
-        if kind == AdhesionKind::Raft { section } else { draw_in(&section, &self.settings.first_layer) }
-    }
-
-    /// The printable area of the bed.
-    pub fn bed(&self) -> Bounds {
-        self.settings.printer.bed()
-    }
-
-    /// What other settings than the job's lay around or below the part without supports.
-    pub fn foundation(&self, adhesion: &AdhesionOptions) -> Result<Foundation, JobError> {
-        self.lay_foundation(adhesion, &self.first_outline(adhesion.kind), &PolygonSet::EMPTY)
-    }
-
-    /// What is laid around or below the first layer of part and supports.
-    fn lay_foundation(
-        &self,
-        adhesion: &AdhesionOptions,
-        outline: &PolygonSet,
-        supports: &PolygonSet,
-    ) -> Result<Foundation, JobError> {
-        lay_foundation(&self.first_layer(outline, supports), adhesion).map_err(JobError::Adhesion)
-    }
-
-    fn first_layer<'a>(&self, outline: &'a PolygonSet, supports: &'a PolygonSet) -> FirstLayer<'a> {
-        let Settings { first_layer, layers, .. } = &self.settings;
-        FirstLayer {
-            outline,
-            supports,
-            bed: self.bed(),
-            line_width: first_layer.line_width,
-            height: layers.first_height,
-            next_height: self.specs.get(1).map_or(layers.height, |spec| spec.height),
-        }
-    }
-
-    /// Puts the raft's layers below the part's.
-    fn raise_on(&mut self, foundation: Foundation) {
-        let count = foundation.raft.len() as u32;
-        let raise = |spec: &LayerSpec| LayerSpec {
-            index: spec.index + count,
-            print_z: spec.print_z + foundation.lift,
-            ..*spec
-        };
-        let raised: Vec<LayerSpec> = self.specs.iter().map(raise).collect();
-        let mut print_z = 0.0;
-        let mut spec_of = |(index, layer): (u32, &RaftLayer)| {
-            print_z += layer.height;
-            // Cut below the part, where nothing is met.
-            LayerSpec { index, slice_z: f64::from(index) - f64::from(count), print_z, height: layer.height }
-        };
-        self.specs = (0..).zip(&foundation.raft).map(&mut spec_of).collect();
-        self.specs.extend(raised);
-        self.laid.splice(..0, foundation.raft.into_iter().map(|layer| layer.paths));
-    }
-
     /// The layers `first..last` as a piece of work for another engine.
     pub fn share(&self, first: usize, last: usize) -> Share {
-        let plan = self.plan(first, last);
-        let triangles: Vec<u32> = self.triangles_of(&plan).collect();
-        Share::new(plan, &self.mesh, &triangles)
+        let mut share = Share::beginning_at(first);
+        self.each_run(first, last, &mut |before, bodies| share.push(before, bodies));
+        share
     }
 
     /// Works the layers `first..last`.
     pub fn slice(&self, first: usize, last: usize, clock: Clock) -> RangeResult {
-        let plan = self.plan(first, last);
-        let triangles: Vec<u32> = self.triangles_of(&plan).collect();
-        range::slice_range(&plan, &self.mesh, triangles.iter().copied(), clock)
+        let mut result = RangeResult::beginning_at(first);
+        self.each_run(first, last, &mut |before, bodies| result.add_run(before, bodies, clock));
+        result
     }
 
-    fn plan(&self, first: usize, last: usize) -> RangePlan {
-        let halo = range::SkinNeighbours::of(&self.settings);
-        // Bridges and overhanging walls look at the layer below, skins or not; a turn of a spiral ends
-        // where the next one starts.
-        let next = usize::from(self.settings.layers.spiral_vase);
-        let low = first.saturating_sub(halo.below.max(1));
-        let high = (last + halo.above.max(next)).min(self.specs.len());
-        RangePlan {
-            settings: self.settings.clone(),
-            specs: self.specs[low..high].to_vec(),
-            first: first - low,
-            last: last - low,
-            seams: self.seams.clone(),
-            line_density: self.line_density,
-            laid: self.laid[first.min(self.laid.len())..last.min(self.laid.len())].to_vec(),
-            after: self.after[first.min(self.after.len())..last.min(self.after.len())].to_vec(),
-            objects: self.objects.clone(),
+    /// Hands out the layers `first..last` print by print: the layers of the file before the print's
+    /// first one, and the range of each of its bodies.
+    fn each_run(&self, first: usize, last: usize, take: &mut dyn FnMut(u32, &[BodyPiece<'_>])) {
+        for (k, print) in self.prints.iter().enumerate() {
+            let before = self.layers_before(k);
+            let local = |layer: usize| layer.saturating_sub(before as usize).min(print.specs().len());
+            let (from, to) = (local(first), local(last));
+            if from < to {
+                let ranges = print.ranges(from, to, &self.objects);
+                let pieces = ranges.iter().map(|BodyRange { plan, triangles }| BodyPiece {
+                    plan,
+                    mesh: print.mesh(),
+                    triangles,
+                });
+                take(before, &pieces.collect::<Vec<_>>());
+            }
         }
     }
 
-    /// Triangles that cross a plane of the plan, in mesh order.
-    fn triangles_of(&self, plan: &RangePlan) -> impl Iterator<Item = u32> {
-        let planes = plan.specs.first().zip(plan.specs.last());
-        let (low, high) = planes.map_or((0.0, 0.0), |(a, b)| (a.slice_z, b.slice_z));
-        let crosses = move |[bottom, top]: [f32; 2]| f64::from(bottom) < high && f64::from(top) >= low;
-        (0u32..).zip(&self.spans).filter(move |(_, span)| crosses(**span)).map(|(t, _)| t)
+    /// Layers of the file before the `k`th print.
+    fn layers_before(&self, k: usize) -> u32 {
+        self.prints[..k].iter().map(|print| print.specs().len() as u32).sum()
+    }
+
+    /// The print that the file's layer `index` belongs to, and the layer's place in it.
+    pub fn print_of(&self, index: usize) -> Option<(&Print, usize)> {
+        let place = (0..self.prints.len()).rfind(|&k| self.layers_before(k) as usize <= index)?;
+        let local = index - self.layers_before(place) as usize;
+        (local < self.prints[place].specs().len()).then(|| (&self.prints[place], local))
     }
 
     /// Takes in the figures of a worked range.
     pub fn add(&mut self, meta: RangeMeta) {
         self.timing.add(&meta.timing);
         self.warnings.extend(meta.warnings);
-        for summary in meta.summaries {
-            let place = summary.index as usize;
+        for (place, summary) in (meta.first..).zip(meta.summaries) {
             self.layers[place] = Some(summary);
         }
     }
@@ -487,7 +345,8 @@ impl Job {
         let summaries: Vec<LayerSummary> =
             self.layers.iter_mut().enumerate().map(take).collect::<Result<_, _>>()?;
         let started = clock();
-        let notes = FileNotes { head: &[], settings: &self.settings.lines() };
+        let settings = [self.settings.lines(), std::mem::take(&mut self.own)].concat();
+        let notes = FileNotes { head: &[], settings: &settings };
         let options = GcodeOptions { objects: self.objects.clone(), ..self.settings.gcode_options() };
         let joined = join(&summaries, &options, &notes).map_err(JobError::Gcode)?;
         self.timing.gcode += clock() - started;
@@ -496,25 +355,28 @@ impl Job {
         let report = self.report(&joined);
         let file_name = self.file_name(report.time_s);
         let layer_times_s = summaries.iter().map(|s| s.time_s).collect();
-        Ok(Finished { joined, report, file_name, layer_times_s, teeth: self.teeth })
+        let teeth = self.first_print().teeth_drawing().cloned();
+        Ok(Finished { joined, report, file_name, layer_times_s, teeth })
     }
 
     fn report(&self, joined: &Joined) -> Report {
         let rows = |m: &DMat4| m.transpose().to_cols_array_2d();
         let placements: Vec<[[f64; 4]; 4]> = self.placements.iter().map(rows).collect();
-        let bounds =
-            self.mesh.bounds().map_or([[0.0; 3]; 2], |b| [b.min, b.max].map(|v| v.as_dvec3().to_array()));
+        let boxes = self.prints.iter().filter_map(|print| print.mesh().bounds());
+        let around = boxes.reduce(|a, b| Box3 { min: a.min.min(b.min), max: a.max.max(b.max) });
+        let bounds = around.map_or([[0.0; 3]; 2], |b| [b.min, b.max].map(|v| v.as_dvec3().to_array()));
+        let meshes = || self.prints.iter().map(Print::mesh);
         let totals = &joined.totals;
         Report {
             engine: engine_name(),
             model: ModelReport {
-                triangles: self.mesh.triangles.len(),
+                triangles: meshes().map(|mesh| mesh.triangles.len()).sum(),
                 bounds,
-                volume_mm3: self.mesh.volume(),
+                volume_mm3: meshes().map(Mesh::volume).sum(),
             },
             placement: placements.first().copied().unwrap_or_default(),
             placements,
-            layers: self.specs.len(),
+            layers: self.layer_count(),
             filament: FilamentReport {
                 length_mm: totals.filament_mm,
                 volume_mm3: totals.volume_mm3,
@@ -592,6 +454,12 @@ fn vase_of(settings: Settings) -> Result<Settings, JobError> {
         return with("adhesion.kind=raft");
     }
     Ok(vase::as_vase(settings))
+}
+
+/// A model's own settings as the file tells them.
+fn own_lines(model: &NamedModel) -> Vec<(String, String)> {
+    let name = model.name.replace(char::is_control, " ");
+    model.own.lines().into_iter().map(|(path, value)| (format!("models.{name}.{path}"), value)).collect()
 }
 
 fn model_warnings(models: &[NamedModel]) -> Vec<Warning> {

@@ -4,13 +4,12 @@ use std::fmt;
 
 use glam::{DMat3, DMat4, DVec3, dvec3};
 
+use super::sequence;
 use crate::gcode::{BedShape, PrinterOptions};
 use crate::mesh::{Box3, Mesh, TransformError};
 use crate::polygon::measure::Bounds;
 use crate::polygon::{DVec2, trig};
-
-/// Free space between models that are printed together, mm.
-const BETWEEN_MODELS: f64 = 10.0;
+use crate::settings::Settings;
 
 /// How far a model may stand over the edge of the bed by rounding, mm.
 const EDGE_TOLERANCE: f64 = 1e-3;
@@ -108,10 +107,11 @@ pub struct Placed {
 }
 
 /// Drops the models on the bed, row by row in their order, the whole group centred. Empty models
-/// are not allowed.
-pub fn place_on_bed(models: &[&Mesh], printer: &PrinterOptions) -> Result<Placed, FitError> {
+/// are not allowed. `own` are the settings of models that have their own.
+pub fn place_on_bed(models: &[&Mesh], settings: &Settings, own: &[Settings]) -> Result<Placed, FitError> {
+    let printer = &settings.printer;
     let boxes: Vec<Box3> = models.iter().filter_map(|m| m.bounds()).collect();
-    let (moves, size) = rows(&boxes, printer);
+    let (moves, size) = rows(&boxes, settings, own);
     let too_large = || {
         let of_model = |(m, by): (&&Mesh, &DVec3)| {
             let by = *by;
@@ -198,9 +198,10 @@ fn largest_scale(points: impl Iterator<Item = DVec3> + Clone, printer: &PrinterO
 }
 
 /// The moves that bring boxes to the bed, row by row in their order, the whole group centred. Of a
-/// round bed only the square around it is looked at.
-pub fn arrange(boxes: &[Box3], printer: &PrinterOptions) -> Result<Vec<DVec3>, FitError> {
-    let (moves, size) = rows(boxes, printer);
+/// round bed only the square around it is looked at. `own` are the settings of models that have their own.
+pub fn arrange(boxes: &[Box3], settings: &Settings, own: &[Settings]) -> Result<Vec<DVec3>, FitError> {
+    let printer = &settings.printer;
+    let (moves, size) = rows(boxes, settings, own);
     if size.cmpgt(room_of(printer)).any() {
         let corners = |(b, by): (&Box3, &DVec3)| corners_of(b).map(|p| p + *by);
         let points: Vec<DVec3> = boxes.iter().zip(&moves).flat_map(corners).collect();
@@ -210,9 +211,10 @@ pub fn arrange(boxes: &[Box3], printer: &PrinterOptions) -> Result<Vec<DVec3>, F
 }
 
 /// The moves that bring boxes to the bed whether or not they fit, and the size of the whole group.
-fn rows(boxes: &[Box3], printer: &PrinterOptions) -> (Vec<DVec3>, DVec3) {
+fn rows(boxes: &[Box3], settings: &Settings, own: &[Settings]) -> (Vec<DVec3>, DVec3) {
+    let printer = &settings.printer;
     let room = room_of(printer);
-    let corners = lay_out_rows(boxes, room.x);
+    let corners = lay_out_rows(boxes, room.x, sequence::space_between(boxes, settings, own));
     let ends = corners.iter().zip(boxes).map(|(c, b)| *c + size_of(b));
     let size = ends.fold(DVec3::ZERO, DVec3::max);
     let to_middle = printer.bed().min.extend(0.0) + ((room - size) / 2.0).with_z(0.0);
@@ -262,16 +264,17 @@ fn size_of(b: &Box3) -> DVec3 {
     b.max.as_dvec3() - b.min.as_dvec3()
 }
 
-/// Lower corners of the boxes in rows no longer than `width`, as far as single boxes allow.
-fn lay_out_rows(boxes: &[Box3], width: f64) -> Vec<DVec3> {
+/// Lower corners of the boxes, `apart` from one another, in rows no longer than `width`, as far as
+/// single boxes allow.
+fn lay_out_rows(boxes: &[Box3], width: f64, apart: f64) -> Vec<DVec3> {
     let (mut x, mut y, mut row_depth) = (0.0, 0.0, 0.0f64);
     let mut place = |b: &Box3| {
         let size = size_of(b);
         if x > 0.0 && x + size.x > width {
-            (x, y, row_depth) = (0.0, y + row_depth + BETWEEN_MODELS, 0.0);
+            (x, y, row_depth) = (0.0, y + row_depth + apart, 0.0);
         }
         let corner = dvec3(x, y, 0.0);
-        x += size.x + BETWEEN_MODELS;
+        x += size.x + apart;
         row_depth = row_depth.max(size.y);
         corner
     };
@@ -288,9 +291,13 @@ mod tests {
         Mesh { vertices, triangles: vec![[0, 1, 0]] }
     }
 
+    fn of_printer(printer: &PrinterOptions) -> Settings {
+        Settings { printer: printer.clone(), ..Settings::default() }
+    }
+
     #[test]
     fn one_model_stands_in_the_middle() {
-        let placed = place_on_bed(&[&block(20.0, 10.0, 5.0)], &PrinterOptions::default()).unwrap();
+        let placed = place_on_bed(&[&block(20.0, 10.0, 5.0)], &Settings::default(), &[]).unwrap();
         assert_eq!(placed.mesh.vertices, [Vec3::new(100.0, 105.0, 0.0), Vec3::new(120.0, 115.0, 5.0)]);
         assert_eq!(placed.placements[0].w_axis.truncate(), dvec3(101.0, 103.0, -5.0));
     }
@@ -298,7 +305,7 @@ mod tests {
     #[test]
     fn three_models_stand_apart_in_rows() {
         let part = block(100.0, 20.0, 5.0);
-        let placed = place_on_bed(&[&part, &part, &part], &PrinterOptions::default()).unwrap();
+        let placed = place_on_bed(&[&part, &part, &part], &Settings::default(), &[]).unwrap();
         let corners: Vec<(f32, f32)> = placed.mesh.vertices.iter().step_by(2).map(|v| (v.x, v.y)).collect();
         assert_eq!(corners, [(5.0, 85.0), (115.0, 85.0), (5.0, 115.0)]);
     }
@@ -307,7 +314,7 @@ mod tests {
     fn placed_by_hand_or_by_us_at_the_same_place_is_the_same() {
         let part = block(20.1, 10.3, 5.7);
         let printer = PrinterOptions::default();
-        let arranged = place_on_bed(&[&part, &part], &printer).unwrap();
+        let arranged = place_on_bed(&[&part, &part], &Settings::default(), &[]).unwrap();
         let told = place_as_told(&[&part, &part], &arranged.placements, &printer).unwrap();
         assert_eq!(arranged, told);
     }
@@ -331,7 +338,7 @@ mod tests {
 
     #[test]
     fn what_is_too_large_is_named_with_its_size() {
-        let error = place_on_bed(&[&block(300.0, 10.0, 5.0)], &PrinterOptions::default()).unwrap_err();
+        let error = place_on_bed(&[&block(300.0, 10.0, 5.0)], &Settings::default(), &[]).unwrap_err();
         assert_eq!(
             error.to_string(),
             "does not fit the printer: 300.0 x 10.0 x 5.0 mm in 220 x 220 x 250 mm; turned by 45 degrees it fits"
@@ -339,7 +346,7 @@ mod tests {
     }
 
     fn hint_for(mesh: &Mesh, printer: &PrinterOptions) -> FitHint {
-        match place_on_bed(&[mesh], printer) {
+        match place_on_bed(&[mesh], &of_printer(printer), &[]) {
             Err(FitError::TooLarge { hint, .. }) => hint,
             other => panic!("{other:?}"),
         }
@@ -354,7 +361,7 @@ mod tests {
         assert_eq!(hint_for(&block(400.0, 400.0, 400.0), &bed), FitHint::Scaled { percent: 25 });
         // On a round bed of 200 mm a square's diagonal may have 200 mm.
         let round = PrinterOptions { bed_size: [200.0, 200.0], bed_shape: BedShape::Round, ..bed };
-        assert!(place_on_bed(&[&square(141.0)], &round).is_ok());
+        assert!(place_on_bed(&[&square(141.0)], &of_printer(&round), &[]).is_ok());
         assert_eq!(hint_for(&square(150.0), &round), FitHint::Scaled { percent: 94 });
     }
 
@@ -369,7 +376,7 @@ mod tests {
     #[test]
     fn the_origin_may_be_in_the_middle() {
         let printer = PrinterOptions { origin: crate::gcode::Origin::Center, ..PrinterOptions::default() };
-        let placed = place_on_bed(&[&block(20.0, 10.0, 5.0)], &printer).unwrap();
+        let placed = place_on_bed(&[&block(20.0, 10.0, 5.0)], &of_printer(&printer), &[]).unwrap();
         assert_eq!(placed.mesh.vertices, [Vec3::new(-10.0, -5.0, 0.0), Vec3::new(10.0, 5.0, 5.0)]);
     }
 }

@@ -32,10 +32,10 @@ pub const PRINT_RESOLUTION: f64 = 0.0125;
 /// about as far as those are apart.
 const SEAM_REACH: f64 = 1.0;
 
-/// What a range needs to know besides its triangles.
+/// What a range of layers of one body, models of a print with the same settings, needs to know besides its triangles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RangePlan {
-    /// All settings.
+    /// All settings of the body's models.
     pub settings: Settings,
     /// The layers to print and the neighbours that decide about their skins.
     pub specs: Vec<LayerSpec>,
@@ -57,26 +57,60 @@ pub struct RangePlan {
     pub objects: Vec<LabelledObject>,
 }
 
-/// A range made ready for an engine that does not hold the job.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// A range of layers of one body, with what it is cut from.
+#[derive(Clone, Copy)]
+pub(super) struct BodyPiece<'a> {
+    pub(super) plan: &'a RangePlan,
+    pub(super) mesh: &'a Mesh,
+    /// Triangles that cross the planes of `plan.specs`, all of them, in mesh order.
+    pub(super) triangles: &'a [u32],
+}
+
+/// Layers that follow on one another, made ready for an engine that does not hold the job.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Share {
-    plan: RangePlan,
-    mesh: Mesh,
+    /// Place in the file of the first layer.
+    first: usize,
+    runs: Vec<SharedRun>,
+}
+
+/// Layers of one print.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct SharedRun {
+    /// Layers of the file before the print's first one.
+    before: u32,
+    bodies: Vec<(RangePlan, Mesh)>,
 }
 
 impl Share {
-    /// The plan with those triangles of the mesh, in mesh order, that its planes cross.
-    pub fn new(plan: RangePlan, mesh: &Mesh, triangles: &[u32]) -> Share {
-        Share { plan, mesh: mesh.subset(triangles.iter().map(|&t| t as usize)) }
+    /// A share without layers, which will begin at the file's layer `first`.
+    pub(super) fn beginning_at(first: usize) -> Share {
+        Share { first, runs: Vec::new() }
     }
 
-    /// Works the range.
+    /// Adds layers of a print; of each mesh only the triangles that are needed.
+    pub(super) fn push(&mut self, before: u32, bodies: &[BodyPiece<'_>]) {
+        let own =
+            |b: &BodyPiece<'_>| (b.plan.clone(), b.mesh.subset(b.triangles.iter().map(|&t| t as usize)));
+        self.runs.push(SharedRun { before, bodies: bodies.iter().map(own).collect() });
+    }
+
+    /// Works the layers.
     pub fn slice(self, clock: Clock) -> RangeResult {
-        slice_range(&self.plan, &self.mesh, 0..self.mesh.triangles.len() as u32, clock)
+        let mut result = RangeResult::beginning_at(self.first);
+        for SharedRun { before, bodies } in &self.runs {
+            let all: Vec<Vec<u32>> =
+                bodies.iter().map(|(_, mesh)| (0..mesh.triangles.len() as u32).collect()).collect();
+            let pieces = bodies.iter().zip(&all);
+            let pieces: Vec<BodyPiece<'_>> =
+                pieces.map(|((plan, mesh), triangles)| BodyPiece { plan, mesh, triangles }).collect();
+            result.add_run(*before, &pieces, clock);
+        }
+        result
     }
 }
 
-/// The G-code of a range of layers.
+/// The G-code of layers that follow on one another.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RangeResult {
     /// Text of each layer.
@@ -88,6 +122,8 @@ pub struct RangeResult {
 /// What the join needs of a range; small.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct RangeMeta {
+    /// Place in the file of the first layer.
+    pub first: usize,
     /// Figures of each layer.
     pub summaries: Vec<LayerSummary>,
     /// Remarks on these layers.
@@ -96,53 +132,99 @@ pub struct RangeMeta {
     pub timing: Timing,
 }
 
-/// Works the layers `plan.first..plan.last` from the given triangles, which must hold all that
-/// cross the planes of `plan.specs`, in mesh order.
-pub(super) fn slice_range(
-    plan: &RangePlan,
-    mesh: &Mesh,
-    triangles: impl Iterator<Item = u32> + Clone,
-    clock: Clock,
-) -> RangeResult {
-    let mut result = RangeResult::default();
-    let started = clock();
-    let heights: Vec<f64> = plan.specs.iter().map(|s| s.slice_z).collect();
-    let sections = slice_triangles(mesh, triangles, Axis::Z, &heights, PRINT_RESOLUTION);
-    result.meta.warnings = gap_warnings(plan, &sections);
-    let areas: Vec<PolygonSet> = sections.into_iter().map(|s| plan.settings.walls.expanded(s.area)).collect();
-    result.meta.warnings.extend(vase::flat_warnings(plan, &areas));
-    let sliced = clock();
-    let exposures = expose(plan, &areas);
-    let exposed = clock();
-    result.meta.warnings.extend(floating_islands(plan, &areas, &exposures));
-    result.meta.timing.slice = sliced - started;
-    result.meta.timing.regions = exposed - sliced;
-    let options = GcodeOptions { objects: plan.objects.clone(), ..plan.settings.gcode_options() };
-    let printed = areas.iter().enumerate().take(plan.last).skip(plan.first);
-    for (place, area) in printed {
-        let turn = vase::turn_of(plan, place, &areas);
-        let spiral = turn.as_ref().map(|t| if t.is_first { Spiral::First } else { Spiral::Next });
-        let neighbours = Neighbours { below: place.checked_sub(1).map(|b| &areas[b]), exposures: &exposures };
-        let paths = match turn {
-            Some(turn) => LayerPaths { paths: vec![turn.wall], ways: vec![Way::ACROSS] },
-            None => lay_paths(plan, place, area, neighbours, &mut result.meta, clock),
-        };
-        let before = clock();
-        let spec = &plan.specs[place];
-        let input = LayerInput {
-            index: spec.index,
-            print_z: spec.print_z,
-            height: spec.height,
-            spiral,
-            paths: &paths.paths,
-            ways: &paths.ways,
-        };
-        let written = layer_gcode(&input, &options);
-        result.texts.push(written.text);
-        result.meta.summaries.push(written.summary);
-        result.meta.timing.gcode += clock() - before;
+impl RangeResult {
+    /// A result without layers, which will begin at the file's layer `first`.
+    pub(super) fn beginning_at(first: usize) -> RangeResult {
+        RangeResult { meta: RangeMeta { first, ..RangeMeta::default() }, ..RangeResult::default() }
     }
-    result
+
+    /// Works layers of one print, which has `before` layers of the file before it.
+    pub(super) fn add_run(&mut self, before: u32, bodies: &[BodyPiece<'_>], clock: Clock) {
+        let told = self.meta.warnings.len();
+        let bodies = cut_bodies(bodies, &mut self.meta, clock);
+        self.write(&bodies, clock);
+        self.meta.warnings[told..].iter_mut().for_each(|warning| warning.raise(before));
+    }
+
+    /// Lays and writes the layers, body after body on each of them.
+    fn write(&mut self, bodies: &[BodyLayers<'_>], clock: Clock) {
+        let Some(BodyLayers { plan, .. }) = bodies.first() else { return };
+        let options = GcodeOptions { objects: plan.objects.clone(), ..plan.settings.gcode_options() };
+        let own: Vec<GcodeOptions> = bodies[1..].iter().map(|b| b.plan.settings.gcode_options()).collect();
+        for (k, spec) in plan.specs[plan.first..plan.last].iter().enumerate() {
+            let (mut paths, spiral) = bodies[0].lay(k, &mut self.meta, clock);
+            let mut own_from = Vec::new();
+            for (body, options) in bodies[1..].iter().zip(&own) {
+                own_from.push((paths.paths.len(), options));
+                // A vase has one body only.
+                let (more, _) = body.lay(k, &mut self.meta, clock);
+                paths.paths.extend(more.paths);
+                paths.ways.extend(more.ways);
+            }
+            let before = clock();
+            let input = LayerInput {
+                index: spec.index,
+                print_z: spec.print_z,
+                height: spec.height,
+                spiral,
+                paths: &paths.paths,
+                ways: &paths.ways,
+                own: &own_from,
+            };
+            let written = layer_gcode(&input, &options);
+            self.texts.push(written.text);
+            self.meta.summaries.push(written.summary);
+            self.meta.timing.gcode += clock() - before;
+        }
+    }
+}
+
+/// The layers of a body before beads are laid.
+struct BodyLayers<'a> {
+    plan: &'a RangePlan,
+    /// Section of each of the plan's layers.
+    areas: Vec<PolygonSet>,
+    exposures: Vec<Exposure>,
+}
+
+impl BodyLayers<'_> {
+    /// The beads of the `k`th layer to print, and how the nozzle rises along them.
+    fn lay(&self, k: usize, meta: &mut RangeMeta, clock: Clock) -> (LayerPaths, Option<Spiral>) {
+        let BodyLayers { plan, areas, exposures } = self;
+        let place = plan.first + k;
+        if let Some(turn) = vase::turn_of(plan, place, areas) {
+            let spiral = if turn.is_first { Spiral::First } else { Spiral::Next };
+            return (LayerPaths { paths: vec![turn.wall], ways: vec![Way::ACROSS] }, Some(spiral));
+        }
+        let neighbours = Neighbours { below: place.checked_sub(1).map(|b| &areas[b]), exposures };
+        (lay_paths(plan, place, &areas[place], neighbours, meta, clock), None)
+    }
+}
+
+/// Cuts the bodies of a print. Where two of them overlap, the earlier one has the place.
+fn cut_bodies<'a>(bodies: &[BodyPiece<'a>], meta: &mut RangeMeta, clock: Clock) -> Vec<BodyLayers<'a>> {
+    let mut cut: Vec<BodyLayers<'a>> = Vec::new();
+    for &BodyPiece { plan, mesh, triangles } in bodies {
+        let started = clock();
+        let heights: Vec<f64> = plan.specs.iter().map(|s| s.slice_z).collect();
+        let sections = slice_triangles(mesh, triangles.iter().copied(), Axis::Z, &heights, PRINT_RESOLUTION);
+        meta.warnings.extend(gap_warnings(plan, &sections));
+        let mut areas: Vec<PolygonSet> =
+            sections.into_iter().map(|s| plan.settings.walls.expanded(s.area)).collect();
+        for earlier in &cut {
+            for (area, taken) in areas.iter_mut().zip(&earlier.areas) {
+                *area = area.difference(taken);
+            }
+        }
+        meta.warnings.extend(vase::flat_warnings(plan, &areas));
+        let sliced = clock();
+        let exposures = expose(plan, &areas);
+        meta.timing.slice += sliced - started;
+        meta.timing.regions += clock() - sliced;
+        meta.warnings.extend(floating_islands(plan, &areas, &exposures));
+        cut.push(BodyLayers { plan, areas, exposures });
+    }
+    cut
 }
 
 /// One warning for each printed layer whose contours had to be closed, with its widest opening.

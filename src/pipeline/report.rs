@@ -39,6 +39,11 @@ impl Warning {
         Warning { code: code.to_owned(), message, layer: Some(layer), at, fix: Vec::new() }
     }
 
+    /// Puts the remark so many layers higher up in the file.
+    pub(super) fn raise(&mut self, layers: u32) {
+        self.layer = self.layer.map(|layer| layer + layers);
+    }
+
     /// The remark with one more setting that would mend it.
     pub(super) fn fixed_by(mut self, path: &str, value: impl std::fmt::Display) -> Warning {
         self.fix.push(format!("{path}={value}"));
@@ -148,9 +153,26 @@ pub struct SupportReport {
 
 impl SupportReport {
     /// Before the G-code is planned: without the time to print; `None` without supports.
-    pub fn of(supports: &Supports) -> Option<SupportReport> {
-        let figures = supports.report().clone();
-        (figures.method != SupportMethod::None).then_some(SupportReport { time_s: 0.0, figures })
+    pub fn of(supports: &[Supports]) -> Option<SupportReport> {
+        let of_one = |supports: &Supports| {
+            let figures = supports.report().clone();
+            (figures.method != SupportMethod::None).then_some(SupportReport { time_s: 0.0, figures })
+        };
+        supports.iter().map(of_one).fold(None, |sum, more| SupportReport::sum(sum, more, 0))
+    }
+
+    /// The figures of two, where `more` has `before` layers of the file before it.
+    pub(super) fn sum(
+        sum: Option<SupportReport>,
+        more: Option<SupportReport>,
+        before: u32,
+    ) -> Option<SupportReport> {
+        let Some(mut more) = more else { return sum };
+        more.figures.uncovered.iter_mut().for_each(|place| place.layer += before);
+        let Some(mut sum) = sum else { return Some(more) };
+        sum.time_s += more.time_s;
+        sum.figures.add(more.figures);
+        Some(sum)
     }
 
     /// With the time that the support roles take.

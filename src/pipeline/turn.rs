@@ -53,7 +53,7 @@ pub(super) fn turn_standing(
         // Directions that were compared before hold while the part stands as in its file.
         let unturned = DMat3::from_mat4(*placement) == DMat3::IDENTITY;
         let orientation = named.orientation.clone().filter(|_| unturned);
-        Ok(NamedModel { name: named.name.clone(), model, orientation })
+        Ok(NamedModel { orientation, ..NamedModel::new(named.name.clone(), model) })
     });
     let standing: Vec<NamedModel> = standing.collect::<Result<_, JobError>>()?;
     let turned = turn_models(&standing, settings)?;
@@ -68,7 +68,7 @@ pub(super) fn turn_standing(
 
 /// The turn of the chosen direction; a part that no directions can be compared for stays as it lies.
 fn best_turn(
-    NamedModel { name, model, orientation }: &NamedModel,
+    NamedModel { name, model, orientation, .. }: &NamedModel,
     options: &OrientationOptions,
     told: &mut Turned,
 ) -> Result<DMat4, JobError> {

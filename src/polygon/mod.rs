@@ -8,6 +8,7 @@
 
 pub mod boolean;
 pub mod grid;
+pub mod hull;
 pub mod measure;
 pub mod offset;
 pub mod raycast;

@@ -30,6 +30,20 @@ pub struct SupportReport {
     pub contact_mm2: f64,
 }
 
+impl SupportReport {
+    /// Adds the supports of other models; the method stays.
+    pub fn add(&mut self, other: SupportReport) {
+        self.volume_mm3 += other.volume_mm3;
+        self.complete_volume_mm3 += other.complete_volume_mm3;
+        self.pieces += other.pieces;
+        self.dropped += other.dropped;
+        self.planes_added += other.planes_added;
+        self.uncovered.extend(other.uncovered);
+        self.plates.extend(other.plates);
+        self.contact_mm2 += other.contact_mm2;
+    }
+}
+
 /// A place that hangs in the air.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]

@@ -48,13 +48,13 @@ impl Scene {
     /// Layer `index` of the job, sliced for this picture alone, with the outline it was made from;
     /// `None` if there is no such layer.
     pub fn of_job_layer(job: &Job, index: usize, clock: Clock) -> Option<Scene> {
-        let spec = job.specs().get(index)?;
+        let (print, place) = job.print_of(index)?;
         let sliced = job.slice(index, index + 1, clock);
         let layer = read_alone(sliced.texts.first()?, sliced.meta.summaries.first()?, job);
-        let section = slice_mesh(job.mesh(), Axis::Z, &[spec.slice_z], 0.0).pop()?;
+        let section = slice_mesh(print.mesh(), Axis::Z, &[print.specs()[place].slice_z], 0.0).pop()?;
         let mut scene = Scene::of_layer(&layer, job.bed(), Some(&section.area));
-        if index == 0 {
-            scene.items.extend(job.teeth_drawing().into_iter().flat_map(teeth_items));
+        if place == 0 {
+            scene.items.extend(print.teeth_drawing().into_iter().flat_map(teeth_items));
         }
         Some(scene)
     }

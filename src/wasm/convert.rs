@@ -10,7 +10,7 @@ use crate::mesh::StlError;
 use crate::orientation::OrientationError;
 use crate::pipeline::{FitError, JobError};
 use crate::printer::CommandError;
-use crate::settings::{Settings, SettingsError};
+use crate::settings::{OwnSettings, Settings, SettingsError};
 
 /// A JavaScript error on its way out.
 #[derive(Debug)]
@@ -57,11 +57,13 @@ pub(super) fn orientation_error(cause: OrientationError) -> Thrown {
 /// A job that cannot be done.
 pub(super) fn job_error(cause: JobError) -> Thrown {
     let name = match cause {
-        JobError::Fit(_) => "FitError",
+        JobError::Fit(_) | JobError::Sequence(_) => "FitError",
         JobError::Empty | JobError::Orientation(_) => "ModelError",
-        JobError::Gcode(_) | JobError::Adhesion(_) | JobError::Support(_) | JobError::Tools(_) => {
-            "SettingsError"
-        }
+        JobError::Gcode(_)
+        | JobError::Adhesion(_)
+        | JobError::Support(_)
+        | JobError::Tools(_)
+        | JobError::OwnSettings { .. } => "SettingsError",
         JobError::LayerMissing { .. } => "InternalError",
     };
     thrown(name, cause)
@@ -91,6 +93,11 @@ pub(super) fn matrix_from(numbers: &[f64]) -> Result<DMat4, Thrown> {
 /// Settings from JSON.
 pub(super) fn settings_from(json: &str) -> Result<Settings, Thrown> {
     Settings::resolve([json], []).map_err(settings_error)
+}
+
+/// A model's own settings from JSON.
+pub(super) fn own_from(json: &str) -> Result<OwnSettings, Thrown> {
+    OwnSettings::resolve([json], []).map_err(settings_error)
 }
 
 #[wasm_bindgen]

@@ -2,7 +2,9 @@
 
 use wasm_bindgen::prelude::*;
 
-use super::convert::{Thrown, internal_error, job_error, matrices_from, now, settings_from, usage_error};
+use super::convert::{
+    Thrown, internal_error, job_error, matrices_from, now, own_from, settings_from, usage_error,
+};
 use super::model::Model;
 use super::study;
 use crate::gcode::Piece;
@@ -21,19 +23,27 @@ impl Job {
     /// Takes the models over, places them on the bed and plans the layers; `names` are the models'
     /// file names without ending, `settings` is JSON. `placements` holds 16 numbers for each model,
     /// the columns of its matrix from file to bed coordinates; empty, the models are arranged.
-    /// Throws a `SettingsError` or a `FitError`.
+    /// `own` holds each model's own settings, JSON; empty, none has any. Throws a `SettingsError` or a
+    /// `FitError`.
     #[wasm_bindgen(constructor)]
     pub fn new(
         models: Vec<Model>,
         names: Vec<String>,
         settings: &str,
         placements: &[f64],
+        own: Vec<String>,
     ) -> Result<Job, Thrown> {
         let settings = settings_from(settings)?;
         let parse_ms: f64 = models.iter().map(|m| m.parse_ms).sum();
         let orientation = &settings.orientation;
         let named = models.into_iter().zip(names).map(|(m, name)| m.named(name, orientation));
-        let named: Vec<NamedModel> = named.collect();
+        let mut named: Vec<NamedModel> = named.collect();
+        if !own.is_empty() && own.len() != named.len() {
+            return Err(usage_error("own: one text for each model is needed"));
+        }
+        for (model, own) in named.iter_mut().zip(&own) {
+            model.own = own_from(own)?;
+        }
         let placements = matrices_from(placements)?;
         let begun = if placements.is_empty() {
             pipeline::Job::new(&named, settings, &now)
@@ -82,7 +92,7 @@ impl Job {
 
     /// Skirt, brim, raft and teeth beside each other, as a JSON list (`AdhesionReport`).
     pub fn compare(&self) -> Result<String, Thrown> {
-        let kinds = self.inner()?.compare(&now).map_err(job_error)?;
+        let kinds = self.inner()?.first_print().compare(&now).map_err(job_error)?;
         serde_json::to_string(&kinds).map_err(internal_error)
     }
 

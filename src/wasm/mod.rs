@@ -22,7 +22,7 @@ pub use study::orientation_lesson;
 
 use wasm_bindgen::prelude::*;
 
-use crate::settings::Settings;
+use crate::settings::{OwnSettings, Settings};
 use convert::settings_error;
 
 #[wasm_bindgen(start)]
@@ -48,4 +48,12 @@ pub fn default_settings() -> String {
 pub fn resolve_settings(files: Vec<String>, sets: Vec<String>) -> Result<String, Thrown> {
     let settings = Settings::resolve(files.iter().map(String::as_str), sets.iter().map(String::as_str));
     Ok(settings.map_err(settings_error)?.to_json())
+}
+
+/// A model's own settings as JSON, from texts and `path=value` words like `resolve_settings`, without
+/// those of the plate. Throws a `SettingsError`.
+#[wasm_bindgen]
+pub fn resolve_own(files: Vec<String>, sets: Vec<String>) -> Result<String, Thrown> {
+    let own = OwnSettings::resolve(files.iter().map(String::as_str), sets.iter().map(String::as_str));
+    Ok(own.map_err(settings_error)?.to_json())
 }

@@ -6,7 +6,7 @@ use wasm_bindgen::prelude::*;
 use super::canvas::MODEL_TINT;
 use super::convert::{
     Thrown, fit_error, internal_error, matrices_from, matrix_from, model_error, now, orientation_error,
-    settings_from, usage_error,
+    own_from, settings_error, settings_from, usage_error,
 };
 use super::scene::Scene;
 use crate::mesh::transform::rotation_to_up;
@@ -15,6 +15,7 @@ use crate::orientation::{
     Direction, DirectionFigures, OrientationOptions, OrientationReport, candidates, choose, evaluate,
 };
 use crate::pipeline::{self, NamedModel};
+use crate::settings::Settings;
 use crate::view::{ModelPicture, Viewpoint};
 
 /// Reads an STL file from chunks of any size.
@@ -184,14 +185,22 @@ fn matrix_and_box(mesh: &Mesh, placement: &DMat4) -> Vec<f64> {
 }
 
 /// Placements (16 numbers each) that stand the parts side by side on the bed, as they are turned and
-/// scaled by `placements`; `boxes` holds the six numbers of each part's box there. Throws a `FitError`.
+/// scaled by `placements`; `boxes` holds the six numbers of each part's box there, `own` the
+/// parts' own settings as for a `Job`. Throws a `FitError` or a `SettingsError`.
 #[wasm_bindgen]
-pub fn arrange_parts(placements: &[f64], boxes: &[f64], settings: &str) -> Result<Vec<f64>, Thrown> {
-    let printer = settings_from(settings)?.printer;
+pub fn arrange_parts(
+    placements: &[f64],
+    boxes: &[f64],
+    settings: &str,
+    own: Vec<String>,
+) -> Result<Vec<f64>, Thrown> {
+    let settings = settings_from(settings)?;
+    let of_part = |own: &String| settings.of_model(&own_from(own)?).map_err(settings_error);
+    let own: Vec<Settings> = own.iter().map(of_part).collect::<Result<_, Thrown>>()?;
     let corner = |at: &[f64]| DVec3::new(at[0], at[1], at[2]).as_vec3();
     let boxes: Vec<Box3> =
         boxes.chunks_exact(6).map(|b| Box3 { min: corner(&b[..3]), max: corner(&b[3..]) }).collect();
-    let moves = pipeline::arrange(&boxes, &printer).map_err(fit_error)?;
+    let moves = pipeline::arrange(&boxes, &settings, &own).map_err(fit_error)?;
     let placed = matrices_from(placements)?.into_iter().zip(moves);
     Ok(placed.flat_map(|(it, by)| (DMat4::from_translation(by) * it).to_cols_array()).collect())
 }

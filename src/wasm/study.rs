@@ -30,7 +30,7 @@ struct BaseLayers {
 }
 
 pub(super) fn base_layers(job: &Job, paper: Paper) -> Result<String, Thrown> {
-    let found = job.alternatives(&now).map_err(job_error)?;
+    let found = job.first_print().alternatives(&now).map_err(job_error)?;
     let pictures = Scene::of_alternatives(&found);
     let kind = |(kind, picture): (&crate::pipeline::Alternative, Scene)| BaseLayer {
         report: kind.report,
@@ -73,7 +73,7 @@ struct Sheet {
 
 pub(super) fn sheets_of(job: &Job) -> Result<String, Thrown> {
     let options = SupportOptions { method: SupportMethod::Plates, ..job.settings().support.clone() };
-    let supports = job.supports(&options).map_err(job_error)?;
+    let supports = job.first_print().supports(&options).map_err(job_error)?;
     let found = sheets(job.mesh(), &options, &supports.report().plates);
     let sheet = |s: &crate::support::Sheet| Sheet {
         axis: if s.axis == Axis::X { "x" } else { "y" },

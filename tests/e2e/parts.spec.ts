@@ -139,3 +139,51 @@ test('settings: depths, search, export, import, undo', async ({ page }) => {
   await page.getByRole('button', { name: 'Undo' }).click();
   await expect(page.getByLabel('Junction deviation', { exact: true })).not.toHaveValue('0.05');
 });
+
+test('a part has settings of its own: marked, undone, kept, and printed', async ({ page }, { outputDir }) => {
+  const { cube, round } = await files(outputDir);
+  await ready(page);
+  await openFile(page, cube);
+  await addFile(page, round);
+  await expect(part(page, 'round.stl')).toBeVisible();
+  await page.getByRole('button', { name: 'Settings for this part' }).click();
+  const own = page.getByRole('region', { name: 'Settings for round.stl' });
+  await expect(own.getByLabel('Layer height', { exact: true })).toHaveCount(0);
+  await own.getByLabel('Infill density').fill('1');
+  await own.getByLabel('Infill density').press('Enter');
+  await expect(part(page, 'round.stl')).toContainText('Own settings');
+  await expect(own).toContainText('1 changed');
+  await page.getByRole('button', { name: 'Undo' }).click();
+  await expect(part(page, 'round.stl')).not.toContainText('Own settings');
+  await page.getByRole('button', { name: 'Redo' }).click();
+  await expect(part(page, 'round.stl')).toContainText('Own settings');
+  await page.reload();
+  await expect(part(page, 'round.stl')).toContainText('Own settings');
+  await sliceButton(page).click();
+  await expect(downloadButton(page)).toBeEnabled();
+  const text = readFileSync((await download(page)).file, 'utf8');
+  expect(text).toContain('; models.round.infill.density = 1');
+  expect(await foothold(['slice', cube, round, '-o', 'own.gcode', '--set-for', 'round:infill.density=1'], outputDir)).toMatchObject({ code: 0 });
+  expect(readFileSync(path.join(outputDir, 'own.gcode'), 'utf8')).toBe(text);
+});
+
+test('parts printed one after another: apart on the bed, one done before the next begins', async ({ page }, { outputDir }) => {
+  const { cube, round } = await files(outputDir);
+  await ready(page);
+  await openFile(page, cube);
+  await addFile(page, round);
+  await expect(part(page, 'round.stl')).toBeVisible();
+  await page.getByRole('searchbox', { name: 'Search settings' }).last().fill('print sequence');
+  await page.getByLabel('Print sequence').selectOption('by_object');
+  await part(page, 'cube.stl').click();
+  // Moved from the middle by the head's clearance.
+  await expect.poll(async () => Number(await page.getByLabel('Middle along X, mm').inputValue())).toBeLessThan(85);
+  await sliceButton(page).click();
+  await expect(downloadButton(page)).toBeEnabled();
+  const text = readFileSync((await download(page)).file, 'utf8');
+  const heights = [...text.matchAll(/^;LAYER_CHANGE\n;Z:(.*)/gm)].map((it) => Number(it[1]));
+  expect(heights.filter((z) => z === 0.2)).toHaveLength(2);
+  expect(heights.filter((z, k) => z < (heights[k - 1] ?? 0))).toEqual([0.2]);
+  await page.getByRole('tab', { name: 'Preview', exact: true }).click();
+  await expect(page.getByRole('slider', { name: 'Layer' })).toHaveAttribute('max', String(heights.length));
+});

@@ -38,6 +38,7 @@ test.each([
   ['slice a.stl --workers two', '--workers two'],
   ['slice a.stl --workers', 'argument missing'],
   ['slice a.stl --set walls.count', '--set walls.count: expected path=value'],
+  ['slice a.stl --set-for a', '--set-for a: expected MODEL:path=value'],
   ['inspect', 'inspect needs a model'],
   ['inspect a.stl b.stl', 'inspect takes one model, not 2'],
   ['draw a.stl -o o.svg', 'draw needs --layer K or --plane'],

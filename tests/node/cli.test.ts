@@ -55,6 +55,32 @@ describe('slice', () => {
     expect(read('bunny4.gcode').equals(read('bunny1.gcode'))).toBe(true);
   });
 
+  test('models printed one after another, with settings of their own', async () => {
+    write('low.stl', binaryStl(box(10, 10, 4)));
+    write('own.json', '{"print": {"sequence": "by_object"}, "models": {"low": {"layers": {"height": 0.1}}}}');
+    const words = 'slice cube.stl low.stl --settings own.json --set-for cube.stl:infill.density=1';
+    const [one, two] = await Promise.all([1, 2].map((n) => run(`${words} -o own${n}.gcode --workers ${n}`)));
+    expect([one, two]).toMatchObject([
+      { code: 0, err: '' },
+      { code: 0, err: '' },
+    ]);
+    const gcode = read('own1.gcode').toString();
+    expect(read('own2.gcode').toString()).toBe(gcode);
+    // The low one first, in 0.2 + 38 x 0.1 mm; then 100 layers.
+    const heights = [...gcode.matchAll(/^;LAYER_CHANGE\n;Z:(.*)/gm)].map((it) => Number(it[1]));
+    expect(heights).toHaveLength(39 + 100);
+    expect([heights[38], heights[39], heights.at(-1)]).toEqual([4, 0.2, 20]);
+    expect(gcode).toContain('\n; models.cube.infill.density = 1\n');
+  });
+
+  test('own settings that no model can have, or of no model, are wrong use', async () => {
+    const height = await run('slice cube.stl -o no.gcode --set-for cube:layers.height=0.1');
+    expect(height).toMatchObject({ code: 2 });
+    expect(height.err).toContain('layers.height: a model can have its own with print.sequence=by_object only');
+    const nobody = await run('slice cube.stl -o no.gcode --set-for cone:walls.count=1');
+    expect(nobody).toMatchObject({ code: 2, err: 'foothold: there is no model "cone": there are cube\n' });
+  });
+
   test('- is standard output, the same bytes', async () => {
     const [stdout] = await Promise.all([run('slice cube.stl -o -'), run('slice cube.stl -o again.gcode')]);
     expect(stdout.out.equals(read('again.gcode'))).toBe(true);

@@ -58,6 +58,8 @@ export function fakeLanes({
         return { kind: 'prepare', layers };
       case 'end':
         return { kind: 'end' };
+      case 'own':
+        return { kind: 'own', settings: '{}' };
       case 'settings':
         return { kind: 'settings', settings: '{}' };
       case 'directions':

@@ -16,9 +16,10 @@ import {
   sizeOf,
   UNMOVED,
 } from '../../www/src/parts.ts';
-import { asChanges } from '../../www/src/settings/changes.ts';
+import { asChanges, withChange } from '../../www/src/settings/changes.ts';
 import { type Depth, found, shownAt } from '../../www/src/settings/depths.ts';
 import { groupsOf, type Schema } from '../../www/src/settings/fields.ts';
+import { ownGroups } from '../../www/src/settings/own.ts';
 import { allFields, roomOf } from '../../www/src/settings/room.ts';
 import { Store } from '../../www/src/state.ts';
 
@@ -32,6 +33,27 @@ test('a part moves with its box and its matrix', () => {
   expect(there.matrix.slice(12)).toEqual([40, 50, 0, 1]);
   expect(middleOf(there)).toEqual([50, 60]);
   expect(sizeOf(there)).toEqual([20, 20, 20]);
+});
+
+test('a part has some settings of its own, and what the plate has is none', () => {
+  const plate = { 'walls.count': 4 };
+  const fields = ownGroups(plate).flatMap((group) => group.fields);
+  const field = (path: string) => fields.find((it) => it.path === path);
+  expect(['layers.height', 'support.tool', 'speed.travel', 'filament.bed_temp'].filter(field)).toEqual([]);
+  const count = field('walls.count');
+  if (count === undefined) throw new Error('walls.count is missing');
+  expect(withChange({}, count, 4)).toEqual({});
+  // The engine's default differs from what this plate has.
+  expect(withChange({}, count, 3)).toEqual({ 'walls.count': 3 });
+  const alone = ownGroups({ 'print.sequence': 'by_object' }).flatMap((group) => group.fields.map(({ path }) => path));
+  expect(alone).toContain('layers.height');
+  expect(alone).toContain('adhesion.kind');
+
+  expect(asStanding([cube, { ...cube, id: 2, own: {} }], true).own).toEqual([]);
+  expect(asStanding([cube, { ...cube, id: 2, own: { 'infill.density': 1 } }], true).own).toEqual([
+    '{}',
+    '{"infill":{"density":1}}',
+  ]);
 });
 
 test('the scale is that of the volume, also mirrored and turned', () => {

@@ -51,6 +51,8 @@ export interface Standing {
   readonly models: readonly number[];
   /** 16 numbers for each, the columns of its matrix from file to bed coordinates; empty: the engine arranges them. */
   readonly placements: readonly number[];
+  /** The own settings of each, JSON; empty: none has any. */
+  readonly own?: readonly string[];
 }
 
 /** A change to where a part stands; the engine's `Edit`. */
@@ -76,8 +78,12 @@ export type LeadRequest =
       readonly placements: readonly number[];
       readonly boxes: readonly number[];
       readonly settings: string;
+      /** As in a Standing. */
+      readonly own: readonly string[];
     }
   | { readonly kind: 'settings'; readonly files: readonly string[]; readonly sets: readonly string[] }
+  /** Own settings of a model, without those of the plate. */
+  | { readonly kind: 'own'; readonly files: readonly string[]; readonly sets: readonly string[] }
   | { readonly kind: 'begin'; readonly settings: string; readonly standing?: Standing | undefined }
   | { readonly kind: 'prepare' }
   | { readonly kind: 'share'; readonly range: Range }
@@ -121,6 +127,7 @@ export type LeadReply =
   | { readonly kind: 'edit'; readonly stand: Float64Array }
   | { readonly kind: 'arrange'; readonly placements: Float64Array }
   | { readonly kind: 'settings'; readonly settings: string }
+  | { readonly kind: 'own'; readonly settings: string }
   /** Layers of the part alone; what is laid below it adds to them when the job is prepared. */
   | { readonly kind: 'begin'; readonly partLayers: number }
   | { readonly kind: 'prepare'; readonly layers: number }

@@ -1,6 +1,7 @@
 // The parts on the bed: each is an open model with a matrix from its file's coordinates to the bed's. Matrices
 // are changed by the engine; the page only moves parts along the bed.
 import type { Standing } from './messages.ts';
+import { asSettings, type Changes } from './settings/changes.ts';
 
 /** A part that stands on the bed. */
 export interface Part {
@@ -12,6 +13,8 @@ export interface Part {
   readonly matrix: readonly number[];
   /** The box around it: lowest x y z, highest x y z, mm. */
   readonly box: readonly number[];
+  /** Settings of its own, where they differ from the plate's. */
+  readonly own?: Changes;
 }
 
 /** Bed width and depth and the printer's height, mm. */
@@ -98,7 +101,13 @@ export function asStanding(parts: readonly Part[], arranged: boolean): Standing 
   return {
     models: parts.map(({ model }) => model),
     placements: arranged ? [] : parts.flatMap(({ matrix }) => matrix),
+    own: parts.some(hasOwn) ? parts.map(({ own = {} }) => asSettings(own)) : [],
   };
+}
+
+/** Whether the part has settings of its own. */
+export function hasOwn({ own = {} }: Part): boolean {
+  return Object.keys(own).length > 0;
 }
 
 /** A number for a part that no part has. */

@@ -42,11 +42,11 @@ export class Session {
   constructor(store: Store, pool: Pool) {
     this.#store = store;
     this.#pool = pool;
-    let room = roomOf(store.state.changes);
+    let ground = groundOf(store.state.changes);
     store.listen(({ changes }) => {
-      const now = roomOf(changes);
-      if (String(now) === String(room)) return;
-      room = now;
+      const now = groundOf(changes);
+      if (now === ground) return;
+      ground = now;
       if (store.state.arranged) void this.arrange();
     });
   }
@@ -140,7 +140,7 @@ export class Session {
       const part = parts.find((it) => it.id === id);
       if (part === undefined) return {};
       const stand = await this.#pool.edit(part.model, part.matrix, edit);
-      return { parts: replaced(parts, standing(id, part.model, stand)), arranged: false };
+      return { parts: replaced(parts, { ...part, ...standing(id, part.model, stand) }), arranged: false };
     });
   }
 
@@ -149,6 +149,16 @@ export class Session {
     await this.#edit(async ({ parts }) => {
       const part = parts.find((it) => it.id === id);
       return part === undefined ? {} : { parts: replaced(parts, movedTo(part, x, y)), arranged: false };
+    });
+  }
+
+  /** Gives a part settings of its own instead of those it has. */
+  async giveOwn(id: number, own: Changes): Promise<void> {
+    await this.#edit(async ({ parts, arranged }) => {
+      const part = parts.find((it) => it.id === id);
+      if (part === undefined) return {};
+      const all = replaced(parts, { ...part, own });
+      return { parts: arranged ? await this.#arranged(all) : all };
     });
   }
 
@@ -356,6 +366,7 @@ export class Session {
         parts.flatMap(({ matrix }) => matrix),
         boxes,
         settings,
+        asStanding(parts, true).own,
       )
       .catch((error: unknown) => {
         if (error instanceof EngineError && error.name === 'FitError') return undefined;
@@ -370,6 +381,12 @@ export class Session {
     const stands = parts.map(({ model, matrix }) => this.#pool.edit(model, matrix, { kind: 'drop' }));
     return (await Promise.all(stands)).map((stand, k) => ({ ...standing(0, 0, stand), ...named(parts[k]) }));
   }
+}
+
+/** All that the engine arranges parts by, as text. */
+function groundOf(changes: Changes): string {
+  const spacing = /^(print\.|printer\.extruder_clearance|adhesion\.|first_layer\.line_width)/;
+  return JSON.stringify([roomOf(changes), Object.entries(changes).filter(([path]) => spacing.test(path))]);
 }
 
 /** Settings in our own form; undefined when they are another program's. */
@@ -414,8 +431,10 @@ export function saveFile(content: Blob, name: string): void {
   setTimeout(() => URL.revokeObjectURL(address), 60_000);
 }
 
-function named(part: Part | undefined): Pick<Part, 'id' | 'model'> {
-  return { id: part?.id ?? 0, model: part?.model ?? 0 };
+/** All of a part but where it stands. */
+function named(part: Part | undefined): Omit<Part, 'matrix' | 'box'> {
+  const { id = 0, model = 0, own } = part ?? {};
+  return own === undefined ? { id, model } : { id, model, own };
 }
 
 function replaced(parts: readonly Part[], part: Part): readonly Part[] {

@@ -9,7 +9,7 @@ mod rail;
 pub mod simplify;
 mod site;
 mod spacing;
-mod tab;
+pub(super) mod tab;
 pub mod vertex;
 mod windows;
 

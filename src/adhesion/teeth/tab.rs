@@ -11,7 +11,7 @@ use crate::sort::StableSort;
 const WIDTH_MM: f64 = 6.0;
 
 /// Away from the part, mm.
-const LENGTH_MM: f64 = 8.0;
+pub(in crate::adhesion) const LENGTH_MM: f64 = 8.0;
 
 /// One tab per rail, between two teeth where the rail is straightest, and a remark where there is no
 /// room.

@@ -39,7 +39,7 @@ struct Lesson<'a> {
 impl<'a> Lesson<'a> {
     fn new(job: &'a Job, below: Option<usize>) -> Self {
         let settings = job.settings();
-        let areas = job.areas();
+        let areas = job.first_print().areas();
         let rules = VolumeRules {
             layer_height: settings.layers.height,
             self_support_angle_deg: settings.orientation.self_support_angle_deg,
@@ -149,7 +149,7 @@ impl<'a> Lesson<'a> {
 
     /// Layers of part and supports, piled up.
     fn pile(&self, ink: impl Fn(usize) -> Ink) -> Scene {
-        let heights = self.job.part_heights();
+        let heights = self.job.first_print().part_heights();
         let mut stack = Stack::new();
         for k in shown(self.areas.len()) {
             stack.level(&self.areas[k], heights[k], Ink::Part);

@@ -19,8 +19,8 @@ const MARGIN_MM: f64 = 3.0;
 /// The steps for a plane such as `y=110`, or for the plane through the middle of the part.
 pub fn plates(job: &Job, plane: &str) -> Result<Vec<Step>, JobError> {
     let options = SupportOptions { method: SupportMethod::Plates, ..job.settings().support.clone() };
-    let areas = job.areas();
-    let supports = job.supports(&options)?;
+    let areas = job.first_print().areas();
+    let supports = job.first_print().supports(&options)?;
     let (axis, at) = parse_plane(plane).unwrap_or_else(|| (Axis::Y, middle(job)));
     let picture = examine_plane(job.mesh(), &options, axis, at);
     Ok(vec![
@@ -102,7 +102,7 @@ fn crossing_step(job: &Job, areas: &[PolygonSet], supports: &Supports, options: 
     ];
     let mut stack = Stack::new();
     for k in shown(areas.len()) {
-        stack.level(&areas[k], job.part_heights()[k], Ink::Part);
+        stack.level(&areas[k], job.first_print().part_heights()[k], Ink::Part);
     }
     for sheet in sheets(job.mesh(), options, &report.plates) {
         stack.upright(&sheet.area, sheet.axis, sheet.at, Ink::Sheet);

@@ -21,7 +21,7 @@ const MARGIN_MM: f64 = 1.5;
 
 /// The steps for the job's first layer; `adhesion.teeth` gives d, d1, d2, H and the limits.
 pub fn teeth(job: &Job) -> Result<Vec<Step>, JobError> {
-    let printed = job.first_outline(AdhesionKind::Teeth);
+    let printed = job.first_print().first_outline(AdhesionKind::Teeth);
     let [paper, ours] = [lay(job, Placement::PerEdge)?, lay(job, Placement::AlongContour)?];
     let lesson = Lesson::new(job, &printed, &paper);
     Ok(vec![
@@ -40,7 +40,7 @@ fn lay(job: &Job, placement: Placement) -> Result<Foundation, JobError> {
     let mut options = AdhesionOptions { kind: AdhesionKind::Teeth, ..job.settings().adhesion.clone() };
     let teeth = &mut options.teeth;
     (teeth.placement, teeth.layers, teeth.rail_lines, teeth.tab) = (placement, 1, 1, false);
-    job.foundation(&options)
+    job.first_print().foundation(&options)
 }
 
 struct Lesson<'a> {

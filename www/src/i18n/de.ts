@@ -41,6 +41,8 @@ export const de: Words = {
     unreachable: (name) => `${name} ließ sich nicht laden.`,
   },
   parts: {
+    own: 'Eigene Einstellungen',
+    ownSettings: 'Einstellungen für dieses Teil',
     heading: 'Teile auf dem Druckbett',
     arrange: 'Anordnen',
     undo: 'Rückgängig',
@@ -151,6 +153,7 @@ export const de: Words = {
   },
   settings: {
     heading: 'Einstellungen',
+    own: (part: string) => `Einstellungen für ${part}`,
     depth: 'Wie viele Einstellungen',
     depths: { basic: 'Wenige', usual: 'Übliche', all: 'Alle' },
     search: 'Einstellungen suchen',

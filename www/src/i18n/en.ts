@@ -42,6 +42,8 @@ export const en = {
     unreachable: (name: string) => `${name} could not be loaded.`,
   },
   parts: {
+    own: 'Own settings',
+    ownSettings: 'Settings for this part',
     heading: 'Parts on the bed',
     arrange: 'Arrange',
     undo: 'Undo',
@@ -153,6 +155,7 @@ export const en = {
   },
   settings: {
     heading: 'Settings',
+    own: (part: string) => `Settings for ${part}`,
     depth: 'How many settings',
     depths: { basic: 'Basic', usual: 'Usual', all: 'All' },
     search: 'Search settings',

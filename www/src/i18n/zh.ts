@@ -40,6 +40,8 @@ export const zh: Words = {
     unreachable: (name) => `无法加载 ${name}。`,
   },
   parts: {
+    own: '单独设置',
+    ownSettings: '此零件的设置',
     heading: '打印床上的零件',
     arrange: '自动排列',
     undo: '撤销',
@@ -149,6 +151,7 @@ export const zh: Words = {
   },
   settings: {
     heading: '设置',
+    own: (part: string) => `${part} 的设置`,
     depth: '显示多少设置',
     depths: { basic: '基本', usual: '常用', all: '全部' },
     search: '搜索设置',

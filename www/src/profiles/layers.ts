@@ -11,18 +11,31 @@ export interface Layers {
 export interface SavedSettings {
   readonly profiles: Layers;
   readonly settings: object;
+  /** Settings of single models, by the models' names. */
+  readonly models: Readonly<Record<string, object>>;
 }
 
 /** Reads a saved file, or plain settings, which choose no profile. Throws where it is neither. */
 export function parseSaved(text: string): SavedSettings {
   const found: unknown = JSON.parse(text);
   if (!isObject(found)) throw new Error('expected a JSON object');
-  if (!('profiles' in found)) return { profiles: {}, settings: found };
-  const { profiles, settings = {}, ...others } = found;
+  const { models = {}, ...plate } = found;
+  if (!('profiles' in plate)) return { profiles: {}, settings: plate, models: modelsOf(models) };
+  const { profiles, settings = {}, ...others } = plate;
   const unknown = Object.keys(others)[0];
-  if (unknown !== undefined) throw new Error(`unknown "${unknown}" beside profiles and settings`);
+  if (unknown !== undefined) throw new Error(`unknown "${unknown}" beside profiles, settings and models`);
   if (!isObject(settings)) throw new Error('"settings" is not an object');
-  return { profiles: layersOf(profiles), settings };
+  return { profiles: layersOf(profiles), settings, models: modelsOf(models) };
+}
+
+function modelsOf(found: unknown): Readonly<Record<string, object>> {
+  if (!isObject(found)) throw new Error('"models" is not an object');
+  const models: Record<string, object> = {};
+  for (const [name, settings] of Object.entries(found)) {
+    if (!isObject(settings)) throw new Error(`the settings of model "${name}" are not an object`);
+    models[name] = settings;
+  }
+  return models;
 }
 
 function layersOf(found: unknown): Layers {

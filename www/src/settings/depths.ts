@@ -21,6 +21,7 @@ const basic = [
 /** What a depth below "all" adds to the basic ones: whole groups, or single settings. */
 const usual = [
   ...basic,
+  'print.sequence',
   'layers',
   'walls',
   'skin',

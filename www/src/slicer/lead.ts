@@ -51,6 +51,8 @@ export class Lead {
         return { kind: 'arrange', placements: this.#arrange(request) };
       case 'settings':
         return { kind: 'settings', settings: this.#engine.resolve_settings([...request.files], [...request.sets]) };
+      case 'own':
+        return { kind: 'own', settings: this.#engine.resolve_own([...request.files], [...request.sets]) };
       case 'begin':
         return { kind: 'begin', partLayers: this.#begin(request.settings, request.standing) };
       case 'prepare':
@@ -141,15 +143,18 @@ export class Lead {
       standing.models.map((model) => this.#names[model] ?? 'model'),
       settings,
       Float64Array.from(standing.placements),
+      [...(standing.own ?? [])],
     );
   }
 
-  /** Answers from a job of its own: the one that is sliced goes on. */
+  /** Answers from a job of its own, about all models together: the one that is sliced goes on. */
   #study({ settings, question, standing }: Extract<LeadRequest, { kind: 'study' }>): string {
     if (question.about === 'orientation') {
       return this.#engine.orientation_lesson(question.report, question.side, question.dark);
     }
-    const job = this.#newJob(settings, standing ?? this.#all());
+    const together = this.#engine.resolve_settings([settings], ['print.sequence=by_layer']);
+    const { models, placements } = standing ?? this.#all();
+    const job = this.#newJob(together, { models, placements });
     try {
       switch (question.about) {
         case 'baseLayers':
@@ -183,8 +188,10 @@ export class Lead {
     return this.#model(model).edit(placement, JSON.stringify(edit));
   }
 
-  #arrange({ placements, boxes, settings }: Extract<LeadRequest, { kind: 'arrange' }>): Float64Array {
-    return this.#engine.arrange_parts(Float64Array.from(placements), Float64Array.from(boxes), settings);
+  #arrange({ placements, boxes, settings, own }: Extract<LeadRequest, { kind: 'arrange' }>): Float64Array {
+    return this.#engine.arrange_parts(Float64Array.from(placements), Float64Array.from(boxes), settings, [
+      ...own,
+    ]);
   }
 
   #slice(first: number, last: number): SlicedRange {

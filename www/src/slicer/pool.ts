@@ -122,9 +122,17 @@ export class Pool {
     return (await this.#guard(this.#someLead().call(request))).stand;
   }
 
-  /** Placements that stand parts side by side; `boxes` are their boxes as `placements` leave them. */
-  async arrange(placements: readonly number[], boxes: readonly number[], settings: string): Promise<Float64Array> {
-    const arranged = this.#someLead().call({ kind: 'arrange', placements, boxes, settings });
+  /**
+   * Placements that stand parts side by side; `boxes` are their boxes as `placements` leave them, `own` their own
+   * settings as in a Standing.
+   */
+  async arrange(
+    placements: readonly number[],
+    boxes: readonly number[],
+    settings: string,
+    own: readonly string[] = [],
+  ): Promise<Float64Array> {
+    const arranged = this.#someLead().call({ kind: 'arrange', placements, boxes, settings, own });
     return (await this.#guard(arranged)).placements;
   }
 
@@ -137,6 +145,11 @@ export class Pool {
   /** All settings as JSON, from settings files and `path=value` words. */
   async settings(files: readonly string[], sets: readonly string[]): Promise<string> {
     return (await this.#guard(this.#someLead().call({ kind: 'settings', files, sets }))).settings;
+  }
+
+  /** Own settings of a model as JSON, from settings files and `path=value` words, without those of the plate. */
+  async own(files: readonly string[], sets: readonly string[]): Promise<string> {
+    return (await this.#guard(this.#someLead().call({ kind: 'own', files, sets }))).settings;
   }
 
   /** Slices the open models. Rejects with an EngineError, or an AbortError once `signal` says so. */

@@ -2,9 +2,13 @@
 import { html, nothing, type TemplateResult } from 'lit';
 import { t } from '../i18n/text.ts';
 import type { Edit } from '../messages.ts';
-import { isOutside, middleOf, type Part, type Room, scaleOf, sizeOf } from '../parts.ts';
+import { hasOwn, isOutside, middleOf, type Part, type Room, scaleOf, sizeOf } from '../parts.ts';
+import { type Changes, withChange } from '../settings/changes.ts';
+import { ownGroups } from '../settings/own.ts';
 import type { OpenModel } from '../state.ts';
 import { Part as Element } from './part.ts';
+import './settings-form.ts';
+import type { SettingChange } from './settings-form.ts';
 
 const axes = ['X', 'Y', 'Z'] as const;
 
@@ -20,7 +24,7 @@ interface NumberField {
 
 /**
  * Sends `select-part`, `duplicate-part`, `remove-part` with a part's number, `edit-part` ({id, edit}),
- * `move-part` ({id, x, y}), `arrange-parts`, `lay-flat`.
+ * `move-part` ({id, x, y}), `own-part` ({id, own}), `arrange-parts`, `lay-flat`.
  */
 export class PartList extends Element {
   static override properties = {
@@ -30,7 +34,9 @@ export class PartList extends Element {
     room: { attribute: false },
     laying: { type: Boolean },
     canLay: { type: Boolean },
+    plate: { attribute: false },
     uniform: { state: true },
+    showsOwn: { state: true },
   };
   declare models: readonly OpenModel[];
   declare parts: readonly Part[];
@@ -40,8 +46,12 @@ export class PartList extends Element {
   declare laying: boolean;
   /** Faces can be clicked. */
   declare canLay: boolean;
+  /** The plate's settings. */
+  declare plate: Changes;
   /** All three sizes change together. */
   declare uniform: boolean;
+  /** The form of the chosen part's own settings is open. */
+  declare showsOwn: boolean;
 
   constructor() {
     super();
@@ -51,7 +61,9 @@ export class PartList extends Element {
     this.room = [220, 220, 250];
     this.laying = false;
     this.canLay = false;
+    this.plate = {};
     this.uniform = true;
+    this.showsOwn = false;
   }
 
   protected override render(): TemplateResult {
@@ -64,15 +76,21 @@ export class PartList extends Element {
     `;
   }
 
+  /** The number of a part among its copies; empty for a single one. */
+  #numberOf(part: Part): string {
+    const copies = this.parts.filter((it) => it.model === part.model);
+    return copies.length > 1 ? ` ${copies.indexOf(part) + 1}` : '';
+  }
+
   #row(part: Part): TemplateResult {
     const model = this.models[part.model];
-    const copies = this.parts.filter((it) => it.model === part.model);
-    const number = copies.length > 1 ? ` ${copies.indexOf(part) + 1}` : '';
+    const number = this.#numberOf(part);
     const chosen = part.id === this.selected;
     return html`<li>
       <button type="button" class="part" aria-pressed=${chosen} @click=${() => this.tell('select-part', chosen ? undefined : part.id)}>
         <span class="model-name"><span>${model?.source.name}</span>${number}</span>
         <span class="facts"><span>${t.format.size(sizeOf(part))}</span></span>
+        ${hasOwn(part) ? html`<span class="badge">${t.parts.own}</span>` : nothing}
         ${isOutside(part, this.room) ? html`<span class="remark">${t.parts.outside}</span>` : nothing}
       </button>
       <button
@@ -143,9 +161,34 @@ export class PartList extends Element {
         ${this.canLay ? small(t.parts.layFlat, () => this.tell('lay-flat', !this.laying), this.laying) : nothing}
         ${small(t.parts.drop, () => edit({ kind: 'drop' }))}
         ${small(t.parts.duplicate, () => this.tell('duplicate-part', part.id))}
+        ${small(
+          t.parts.ownSettings,
+          () => {
+            this.showsOwn = !this.showsOwn;
+          },
+          this.showsOwn,
+        )}
       </div>
       ${this.laying ? html`<p class="hint">${t.parts.layHow}</p>` : nothing}
+      ${this.showsOwn ? this.#own(part) : nothing}
     </div>`;
+  }
+
+  /** The settings that the part has of its own. */
+  #own(part: Part): TemplateResult {
+    const { id, own = {} } = part;
+    const give = (event: Event, changes: Changes): void => {
+      event.stopPropagation();
+      this.tell('own-part', { id, own: changes });
+    };
+    return html`<settings-form
+      .own=${ownGroups(this.plate)}
+      .part=${`${this.models[part.model]?.source.name ?? ''}${this.#numberOf(part)}`}
+      .changes=${own}
+      @setting-change=${(event: CustomEvent<SettingChange>) =>
+        give(event, withChange(own, event.detail.field, event.detail.value))}
+      @settings-reset=${(event: Event) => give(event, {})}
+    ></settings-form>`;
   }
 
   #scaling(axis: number, factor: number): Edit {

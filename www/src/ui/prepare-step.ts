@@ -4,7 +4,7 @@ import settingsSchema from '../../../schema/settings.schema.json';
 import { t } from '../i18n/text.ts';
 import type { Edit, ModelSource } from '../messages.ts';
 import { chosenIn, offered, withProfile } from '../profiles/choice.ts';
-import { withChange } from '../settings/changes.ts';
+import { type Changes, withChange } from '../settings/changes.ts';
 import type { Schema } from '../settings/fields.ts';
 import { roomOf } from '../settings/room.ts';
 import { canDrawSpace } from '../view/webgl.ts';
@@ -89,6 +89,7 @@ export class PrepareStep extends StepPart {
         .parts=${parts}
         .selected=${selected}
         .room=${roomOf(changes)}
+        .plate=${changes}
         .laying=${laying}
         .canLay=${this.#canLay}
         @select-part=${({ detail }: CustomEvent<number | null>) => this.session?.select(detail ?? undefined)}
@@ -98,6 +99,8 @@ export class PrepareStep extends StepPart {
           void this.session?.change(id, edit)}
         @move-part=${({ detail: { id, x, y } }: CustomEvent<{ id: number; x: number; y: number }>) =>
           void this.session?.moveTo(id, x, y)}
+        @own-part=${({ detail: { id, own } }: CustomEvent<{ id: number; own: Changes }>) =>
+          void this.session?.giveOwn(id, own)}
         @lay-flat=${({ detail }: CustomEvent<boolean>) => this.store?.update({ laying: detail })}
       ></part-list>
       ${

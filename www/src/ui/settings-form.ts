@@ -12,16 +12,25 @@ export interface SettingChange {
   readonly value: Value;
 }
 
-/** Sends `setting-change` with a SettingChange, `settings-import` with a File, `settings-export`, `settings-reset`. */
+/**
+ * The form for the plate, made from `schema`, or for a part's own settings, made from `own`. Sends `setting-change`
+ * with a SettingChange, `settings-import` with a File, `settings-export`, `settings-reset`.
+ */
 export class SettingsForm extends Part {
   static override properties = {
     schema: { attribute: false },
+    own: { attribute: false },
+    part: { type: String },
     changes: { attribute: false },
     faults: { state: true },
     depth: { state: true },
     search: { state: true },
   };
   declare schema: Schema | undefined;
+  /** The settings that the part can have; fields default to what the plate has. */
+  declare own: readonly Group[] | undefined;
+  /** Name of the part whose own settings these are; empty for the plate's. */
+  declare part: string;
   declare changes: Changes;
   /** Why an input's text was not taken, by path. */
   declare faults: Readonly<Record<string, string>>;
@@ -32,6 +41,8 @@ export class SettingsForm extends Part {
   constructor() {
     super();
     this.schema = undefined;
+    this.own = undefined;
+    this.part = '';
     this.changes = {};
     this.faults = {};
     this.depth = 'basic';
@@ -40,6 +51,7 @@ export class SettingsForm extends Part {
 
   protected override willUpdate(changed: Map<string, unknown>): void {
     if (changed.has('schema') && this.schema !== undefined) this.#groups = groupsOf(this.schema);
+    if (this.own !== undefined) this.#groups = this.own;
   }
 
   protected override render(): TemplateResult {
@@ -49,14 +61,8 @@ export class SettingsForm extends Part {
       : shownAt(this.depth, this.#groups);
     const changed = Object.keys(this.changes).length;
     return html`
-      <section class="card" aria-labelledby="settings-heading">
-        <div class="row spread">
-          <h2 id="settings-heading">
-            ${t.settings.heading}
-            ${changed > 0 ? html`<span class="badge">${changed} ${t.settings.changed}</span>` : nothing}
-          </h2>
-          ${this.#files(changed > 0)}
-        </div>
+      <section class=${this.own === undefined ? 'card' : 'own-settings'} aria-labelledby=${this.#id('heading')}>
+        ${this.own === undefined ? this.#head(changed) : this.#ownHead(changed)}
         <div class="choice wide" role="group" aria-label=${t.settings.depth}>
           ${depths.map(
             (
@@ -80,6 +86,25 @@ export class SettingsForm extends Part {
         ${shown.map((group) => (this.depth === 'all' && !searching ? this.#folded(group) : this.#open(group)))}
       </section>
     `;
+  }
+
+  #head(changed: number): TemplateResult {
+    return html`<div class="row spread">
+      <h2 id=${this.#id('heading')}>${t.settings.heading} ${badge(changed)}</h2>
+      ${this.#files(changed > 0)}
+    </div>`;
+  }
+
+  #ownHead(changed: number): TemplateResult {
+    return html`<div class="row spread">
+      <h3 id=${this.#id('heading')}>${t.settings.own(this.part)} ${badge(changed)}</h3>
+      ${changed > 0 ? link(t.settings.resetAll, () => this.tell('settings-reset')) : nothing}
+    </div>`;
+  }
+
+  /** A name in the page for something of this form. */
+  #id(name: string): string {
+    return this.own === undefined ? `settings-${name}` : `own-settings-${name}`;
   }
 
   #go(depth: Depth): void {
@@ -118,14 +143,14 @@ export class SettingsForm extends Part {
     return html`<details class="group">
       <summary>
         ${group.path === '' ? t.settings.general : groupLabel(group.path, spoken())}
-        ${changed > 0 ? html`<span class="badge">${changed} ${t.settings.changed}</span>` : nothing}
+        ${badge(changed)}
       </summary>
       <div class="fields">${group.fields.map((field) => this.#row(field, 'all'))}</div>
     </details>`;
   }
 
   #row(field: Field, where: string): TemplateResult {
-    const id = `${where}-${field.path}`;
+    const id = this.own === undefined ? `${where}-${field.path}` : `own-${where}-${field.path}`;
     const changed = field.path in this.changes;
     return html`<div class="field ${changed ? 'changed' : ''} ${field.kind}">
       <label for=${id}>${labelOf(field, spoken())}</label>
@@ -216,6 +241,10 @@ function textOf(value: Value): string {
 function rangeOf(field: Field): string {
   if (!('unit' in field) || field.low === undefined || field.high === undefined) return '';
   return t.settings.range(String(field.low), String(field.high), t.settings.unit(field.unit));
+}
+
+function badge(changed: number): TemplateResult | typeof nothing {
+  return changed > 0 ? html`<span class="badge">${changed} ${t.settings.changed}</span>` : nothing;
 }
 
 function link(label: string, act: () => void): TemplateResult {

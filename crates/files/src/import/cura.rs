@@ -30,6 +30,12 @@ const ROWS: &[Row] = &[
     ("wall_line_count", "walls.count", Turn::Number),
     ("line_width", "walls.width", Turn::Number),
     ("wall_line_width", "walls.width", Turn::Number),
+    (
+        "print_sequence",
+        "print.sequence",
+        Turn::Word(&[("all_at_once", "by_layer"), ("one_at_a_time", "by_object")]),
+    ),
+    ("gantry_height", "printer.extruder_clearance_height", Turn::Number),
     ("top_layers", "skin.top_layers", Turn::Number),
     ("bottom_layers", "skin.bottom_layers", Turn::Number),
     ("infill_sparse_density", "infill.density", Turn::Percent),
