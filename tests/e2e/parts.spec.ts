@@ -163,11 +163,15 @@ test('a part has settings of its own: marked, undone, kept, and printed', async 
   await expect(downloadButton(page)).toBeEnabled();
   const text = readFileSync((await download(page)).file, 'utf8');
   expect(text).toContain('; models.round.infill.density = 1');
-  expect(await foothold(['slice', cube, round, '-o', 'own.gcode', '--set-for', 'round:infill.density=1'], outputDir)).toMatchObject({ code: 0 });
+  expect(
+    await foothold(['slice', cube, round, '-o', 'own.gcode', '--set-for', 'round:infill.density=1'], outputDir),
+  ).toMatchObject({ code: 0 });
   expect(readFileSync(path.join(outputDir, 'own.gcode'), 'utf8')).toBe(text);
 });
 
-test('parts printed one after another: apart on the bed, one done before the next begins', async ({ page }, { outputDir }) => {
+test('parts printed one after another: apart on the bed, one done before the next begins', async ({ page }, {
+  outputDir,
+}) => {
   const { cube, round } = await files(outputDir);
   await ready(page);
   await openFile(page, cube);

@@ -235,7 +235,7 @@ export class Session {
       const below = own === undefined ? [asSettings(changes)] : settingsFiles(own.profiles);
       const above = JSON.stringify(own?.settings ?? found?.settings ?? {});
       const resolved = await this.#pool.settings([...below, above], []);
-      const settingsNotes = found === undefined ? [] : notesOf(found, file.name);
+      const settingsNotes = found === undefined ? leftOut(own) : notesOf(found, file.name);
       const all = JSON.parse(resolved) as object;
       return { changes: { ...asChanges(all, allFields), ...besideForm(all) }, settingsNotes };
     });
@@ -401,6 +401,12 @@ function ownSettings(content: Uint8Array): SavedSettings | undefined {
     if (error instanceof SyntaxError || error instanceof TypeError) return undefined;
     throw error;
   }
+}
+
+/** Settings of single models in a file of ours are for the command line: here each part has a form. */
+function leftOut(own: SavedSettings | undefined): readonly string[] {
+  const names = Object.keys(own?.models ?? {});
+  return names.length === 0 ? [] : [t.profiles.ofModels(names.join(', '))];
 }
 
 /** What became of another slicer's profile. */

@@ -177,6 +177,8 @@ export const de: Words = {
     material: 'Material',
     quality: 'Qualität',
     own: 'Eigene Einstellungen',
+    ofModels: (names: string) =>
+      `Einstellungen einzelner Modelle wurden ausgelassen (${names}): Teil wählen und dort einstellen.`,
     imported: (name: string, count: number) => `${name}: ${count} Einstellungen übernommen.`,
     unknown: (names: string) => `Hier unbekannt: ${names}`,
     usb: {

@@ -179,6 +179,8 @@ export const en = {
     material: 'Material',
     quality: 'Quality',
     own: 'Own settings',
+    ofModels: (names: string) =>
+      `Settings of single models were left out (${names}): choose the part and give it its own.`,
     imported: (name: string, count: number) => `${name}: ${count} settings taken over.`,
     unknown: (names: string) => `Not known here: ${names}`,
     usb: {

@@ -189,9 +189,7 @@ export class Lead {
   }
 
   #arrange({ placements, boxes, settings, own }: Extract<LeadRequest, { kind: 'arrange' }>): Float64Array {
-    return this.#engine.arrange_parts(Float64Array.from(placements), Float64Array.from(boxes), settings, [
-      ...own,
-    ]);
+    return this.#engine.arrange_parts(Float64Array.from(placements), Float64Array.from(boxes), settings, [...own]);
   }
 
   #slice(first: number, last: number): SlicedRange {

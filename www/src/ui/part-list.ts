@@ -183,7 +183,7 @@ export class PartList extends Element {
     };
     return html`<settings-form
       .own=${ownGroups(this.plate)}
-      .part=${`${this.models[part.model]?.source.name ?? ''}${this.#numberOf(part)}`}
+      .partName=${`${this.models[part.model]?.source.name ?? ''}${this.#numberOf(part)}`}
       .changes=${own}
       @setting-change=${(event: CustomEvent<SettingChange>) =>
         give(event, withChange(own, event.detail.field, event.detail.value))}

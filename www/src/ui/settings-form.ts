@@ -20,7 +20,7 @@ export class SettingsForm extends Part {
   static override properties = {
     schema: { attribute: false },
     own: { attribute: false },
-    part: { type: String },
+    partName: { type: String },
     changes: { attribute: false },
     faults: { state: true },
     depth: { state: true },
@@ -30,7 +30,7 @@ export class SettingsForm extends Part {
   /** The settings that the part can have; fields default to what the plate has. */
   declare own: readonly Group[] | undefined;
   /** Name of the part whose own settings these are; empty for the plate's. */
-  declare part: string;
+  declare partName: string;
   declare changes: Changes;
   /** Why an input's text was not taken, by path. */
   declare faults: Readonly<Record<string, string>>;
@@ -42,7 +42,7 @@ export class SettingsForm extends Part {
     super();
     this.schema = undefined;
     this.own = undefined;
-    this.part = '';
+    this.partName = '';
     this.changes = {};
     this.faults = {};
     this.depth = 'basic';
@@ -97,7 +97,7 @@ export class SettingsForm extends Part {
 
   #ownHead(changed: number): TemplateResult {
     return html`<div class="row spread">
-      <h3 id=${this.#id('heading')}>${t.settings.own(this.part)} ${badge(changed)}</h3>
+      <h3 id=${this.#id('heading')}>${t.settings.own(this.partName)} ${badge(changed)}</h3>
       ${changed > 0 ? link(t.settings.resetAll, () => this.tell('settings-reset')) : nothing}
     </div>`;
   }
