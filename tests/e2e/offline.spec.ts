@@ -93,6 +93,9 @@ test('a new version is told, never in the middle of a job, and waits for jobs in
   await ready(other, address);
   await openFile(other, inFolder(outputDir, 'bunny.stl', binaryStl(bunny())));
   await expect(other.getByText('bunny.stl', { exact: true })).toBeVisible();
+  // Many layers, so that the job does not end before it is cancelled.
+  await other.getByLabel('Layer height').first().fill('0.05');
+  await other.getByLabel('Layer height').first().press('Tab');
 
   version = 'two';
   await page.evaluate(async () => void (await (await navigator.serviceWorker.getRegistration())?.update()));
