@@ -5,6 +5,7 @@ import { type Page, test as plain } from '@playwright/test';
 import { embedExample } from '../../scripts/embed.mjs';
 import { foothold } from '../node/command.ts';
 import { expect, noFindings, sliceButton } from './page.ts';
+import { connected, ofJob, printFile, printStep, seen, wish, withPrinter } from './printer.ts';
 
 const sample = new URL('../../www/public/sample.stl', import.meta.url).pathname;
 
@@ -169,4 +170,29 @@ test('several on a page do not disturb each other, and one that is removed frees
   expect(await gcodeOf(page)).toEqual(first);
   await page.evaluate(() => document.querySelector('foothold-slicer')?.remove());
   await expect.poll(() => page.workers().length).toBe(0);
+});
+
+test('a print from another origin: its worker has the port, and the host hears when it begins and ends', async ({
+  page,
+  example,
+}) => {
+  await withPrinter(page);
+  await printStep(page, example.address);
+  await wish(page, { printer: { moveMs: 1 }, factor: 20 });
+  await page.evaluate(() => {
+    const told: unknown[] = [];
+    addEventListener('foothold-print', (event) => told.push((event as CustomEvent).detail));
+    Object.assign(globalThis, { told });
+  });
+  await connected(page);
+  const job = ['G28', 'M109 S200', 'M83', 'G1 X1 Y1 Z0.2 E0.01', 'G1 X2 Y2 E0.01'];
+  await printFile(page, 'job.gcode', `${job.join('\n')}\n`);
+  const told = () => page.evaluate(() => Object.getOwnPropertyDescriptor(globalThis, 'told')?.value as unknown);
+  await expect.poll(told).toEqual([
+    { state: 'started', name: 'job.gcode' },
+    { state: 'finished', name: 'job.gcode' },
+  ]);
+  const { accepted, inPage } = await seen(page);
+  expect(ofJob(accepted)).toEqual(job);
+  expect(inPage).toBe(false);
 });
