@@ -119,6 +119,18 @@ fn ranges_and_shares_give_the_bytes_of_the_whole() {
 }
 
 #[test]
+fn odd_layers_begin_with_the_body_that_even_ones_end_with() {
+    let (text, _) = sliced(&pair(&["walls.count=1"], &["walls.count=2"]), &["adhesion.kind=none"]);
+    let mut sides: Vec<bool> = Reader::new(text.as_bytes())
+        .filter(|s| s.lays_bead() && s.layer > 0)
+        .map(|s| s.to[0] < 110.0)
+        .collect();
+    sides.dedup();
+    // 100 layers, each with one way from model to model.
+    assert_eq!(sides.len(), 101);
+}
+
+#[test]
 fn models_of_equal_settings_are_one_body() {
     let plain = sliced(&pair(&[], &[]), &["walls.count=2"]).0;
     let own_of_both = sliced(&pair(&["walls.count=2"], &["walls.count=2"]), &[]).0;

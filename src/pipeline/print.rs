@@ -359,7 +359,7 @@ impl Print {
         self.laid.splice(..0, foundation.raft.into_iter().map(|layer| layer.paths));
     }
 
-    /// The layers `first..last` of each body, in the order in which bodies are printed on a layer.
+    /// The layers `first..last` of each body.
     pub(super) fn ranges(&self, first: usize, last: usize, objects: &[LabelledObject]) -> Vec<BodyRange> {
         let of_body = |place: usize| {
             let plan = self.plan(place, first, last, objects);
@@ -377,10 +377,13 @@ impl Print {
         let next = usize::from(body.settings.layers.spiral_vase);
         let low = first.saturating_sub(halos().map(|halo| halo.below).fold(1, usize::max));
         let high = (last + halos().map(|halo| halo.above).fold(next, usize::max)).min(self.specs.len());
-        // The first body brings what is printed before all of them, the last one what comes after.
-        let part_of = |all: &[Vec<Path>], is_mine: bool| {
-            if is_mine { all[first.min(all.len())..last.min(all.len())].to_vec() } else { Vec::new() }
+        // What is printed before all bodies comes with the first one, what is printed after with the last.
+        let part_of = |all: &[Vec<Path>], is_mine: &dyn Fn(usize) -> bool| -> Vec<Vec<Path>> {
+            let mine = |k: usize| if is_mine(k) { all[k].clone() } else { Vec::new() };
+            (first.min(all.len())..last.min(all.len())).map(mine).collect()
         };
+        let count = self.bodies.len();
+        let turn = |k: usize| range::in_turn(k as u32, place, count);
         RangePlan {
             settings: body.settings.clone(),
             specs: self.specs[low..high].to_vec(),
@@ -388,8 +391,8 @@ impl Print {
             last: last - low,
             seams: body.seams.clone(),
             line_density: body.line_density,
-            laid: part_of(&self.laid, place == 0),
-            after: part_of(&self.after, place + 1 == self.bodies.len()),
+            laid: part_of(&self.laid, &|k| turn(k) == 0),
+            after: part_of(&self.after, &|k| turn(k) + 1 == count),
             objects: objects.to_vec(),
         }
     }

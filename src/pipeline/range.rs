@@ -151,13 +151,16 @@ impl RangeResult {
         let Some(BodyLayers { plan, .. }) = bodies.first() else { return };
         let options = GcodeOptions { objects: plan.objects.clone(), ..plan.settings.gcode_options() };
         let own: Vec<GcodeOptions> = bodies[1..].iter().map(|b| b.plan.settings.gcode_options()).collect();
+        let options_of = |body: usize| if body == 0 { &options } else { &own[body - 1] };
         for (k, spec) in plan.specs[plan.first..plan.last].iter().enumerate() {
-            let (mut paths, spiral) = bodies[0].lay(k, &mut self.meta, clock);
-            let mut own_from = Vec::new();
-            for (body, options) in bodies[1..].iter().zip(&own) {
-                own_from.push((paths.paths.len(), options));
+            let mut order = (0..bodies.len()).map(|turn| in_turn(spec.index, turn, bodies.len()));
+            let first = order.next().unwrap_or_default();
+            let (mut paths, spiral) = bodies[first].lay(k, &mut self.meta, clock);
+            let mut own_from = vec![(0, options_of(first))];
+            for body in order {
+                own_from.push((paths.paths.len(), options_of(body)));
                 // A vase has one body only.
-                let (more, _) = body.lay(k, &mut self.meta, clock);
+                let (more, _) = bodies[body].lay(k, &mut self.meta, clock);
                 paths.paths.extend(more.paths);
                 paths.ways.extend(more.ways);
             }
@@ -177,6 +180,12 @@ impl RangeResult {
             self.meta.timing.gcode += clock() - before;
         }
     }
+}
+
+/// Place of a body among `count` in the order of layer `index`, and the other way round: odd layers go
+/// back, as their islands do, so that a layer begins near where the one below ends.
+pub(super) fn in_turn(index: u32, place: usize, count: usize) -> usize {
+    if index.is_multiple_of(2) { place } else { count - 1 - place }
 }
 
 /// The layers of a body before beads are laid.
