@@ -1,4 +1,13 @@
-import { chmodSync, existsSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
+import {
+  chmodSync,
+  existsSync,
+  mkdirSync,
+  readdirSync,
+  readFileSync,
+  statSync,
+  truncateSync,
+  writeFileSync,
+} from 'node:fs';
 import path from 'node:path';
 import { Ajv2020 } from 'ajv/dist/2020.js';
 import { afterAll, describe, expect, test } from 'vitest';
@@ -31,6 +40,9 @@ write(
     ],
   ]),
 );
+// Holes in a file take no room on the disk.
+write('huge.stl', binaryStl(box(20, 20, 20)));
+truncateSync(file('huge.stl'), 401 * 1024 * 1024);
 write('good.json', '{"layers": {"height": 0.3}}');
 write('unknown.json', '{"walls": {"colour": "red"}}');
 write('broken.json', '{"walls": ');

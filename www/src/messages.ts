@@ -113,6 +113,7 @@ export type LeadRequest =
     }
   | {
       readonly kind: 'thumbnail';
+      readonly model: number;
       readonly up: readonly number[];
       readonly width: number;
       readonly height: number;

@@ -6,7 +6,7 @@ import { planOf, redone, undone } from './history.ts';
 import { t } from './i18n/text.ts';
 import type { Kept } from './keep.ts';
 import { placeIn } from './lesson/steps.ts';
-import type { Edit, ModelSource } from './messages.ts';
+import type { Edit, ModelSource, Up } from './messages.ts';
 import { asStanding, atFreeSpot, freeId, movedTo, type Part, standing, UNMOVED } from './parts.ts';
 import { settingsFiles } from './profiles/catalog.ts';
 import { besideForm } from './profiles/choice.ts';
@@ -31,6 +31,9 @@ import {
 } from './state.ts';
 import type { Lesson, LessonStep, Question } from './studies.ts';
 import { canDrawSpace } from './view/webgl.ts';
+
+/** Faces to choose from that lie on the bed, besides the six sides of a box. */
+const FACES = 12;
 
 export class Session {
   readonly #store: Store;
@@ -256,8 +259,7 @@ export class Session {
   /** The steps of a lesson on the open model; the one about orientation compares the six directions first. */
   async lesson(lesson: Lesson, at: string, side: number, dark: boolean): Promise<readonly LessonStep[]> {
     if (lesson !== 'orientation') return await this.study({ about: 'lesson', lesson, at, side, dark });
-    const six = { 'orientation.hull_directions': 0 };
-    const settings = await this.#pool.settings([asSettings({ ...this.#store.state.changes, ...six })], []);
+    const settings = await this.#settings({ 'orientation.hull_directions': 0 });
     const report = await this.#pool.orient({ settings });
     return await this.study({ about: 'orientation', report, side, dark });
   }
@@ -282,9 +284,14 @@ export class Session {
     }
   }
 
-  /** The first model with `up` turned up. */
-  async thumbnail(up: readonly number[], width: number, height: number): Promise<ImageData> {
-    const pixels = await this.#pool.thumbnail(up, width, height);
+  /** Ways up of a model that lay its largest faces on the bed. */
+  async faces(model: number): Promise<readonly Up[]> {
+    return await this.#pool.faces(model, await this.#settings({ 'orientation.hull_directions': FACES }));
+  }
+
+  /** A model, or the first, with `up` turned up. */
+  async thumbnail(up: readonly number[], width: number, height: number, model = 0): Promise<ImageData> {
+    const pixels = await this.#pool.thumbnail(up, width, height, model);
     return new ImageData(new Uint8ClampedArray(pixels), width, height);
   }
 
@@ -317,9 +324,9 @@ export class Session {
     this.#store.update({ step: step === 'prepare' ? 'preview' : step, layer: Math.min(Math.max(layer, 0), last) });
   }
 
-  /** All settings as JSON. */
-  #settings(): Promise<string> {
-    return this.#pool.settings([asSettings(this.#store.state.changes)], []);
+  /** All settings of the form as JSON, with what else is to be changed. */
+  #settings(changes: Changes = {}): Promise<string> {
+    return this.#pool.settings([asSettings({ ...this.#store.state.changes, ...changes })], []);
   }
 
   async #sliced(
@@ -327,7 +334,7 @@ export class Session {
     progress: NonNullable<Parameters<Pool['slice']>[0]['progress']>,
   ): Promise<Partial<State>> {
     const { changes, parts, arranged } = this.#store.state;
-    const settings = await this.#pool.settings([asSettings(changes)], []);
+    const settings = await this.#settings();
     const gcode = await this.#pool.slice({ settings, standing: asStanding(parts, arranged), signal, progress });
     const report = JSON.parse(gcode.joined.report) as Report;
     // In space all layers are seen at once; flat the first is the one to look at.
@@ -359,7 +366,7 @@ export class Session {
   /** The parts side by side in the middle of the bed; each in its middle when there is no room for all. */
   async #arranged(parts: readonly Part[]): Promise<readonly Part[]> {
     const { changes } = this.#store.state;
-    const settings = await this.#pool.settings([asSettings(changes)], []);
+    const settings = await this.#settings();
     const boxes = parts.flatMap(({ box }) => box);
     const matrices = await this.#pool
       .arrange(

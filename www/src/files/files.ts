@@ -6,13 +6,13 @@ import { EngineError, toFailure } from '../slicer/errors.ts';
 export type Files = typeof import('../generated/files/foothold_files.js');
 export type LoadFiles = () => Promise<Files>;
 
-/** Larger files of these formats are refused: they are read whole. */
+/** Larger files are refused: a binary STL of this size holds eight million triangles, which take 1 GB to slice. */
 const LARGEST = 400 * 1024 * 1024;
 
 /** The models in a file that is no STL, as one STL for each part. Throws a ModelError. */
 export async function modelsIn({ name, file }: ModelSource, load: LoadFiles): Promise<readonly ModelSource[]> {
   try {
-    if (file.size > LARGEST) throw new EngineError(tooLarge(file.size));
+    refuseTooLarge(file.size);
     const files = await load();
     const parts = new files.Parts(name, await bytes(file, file.size));
     const count = parts.count();
@@ -62,9 +62,12 @@ async function bytes(file: Bytes, to: number): Promise<Uint8Array> {
   return new Uint8Array(await file.slice(0, Math.min(to, file.size)).arrayBuffer());
 }
 
-function tooLarge(size: number): { name: string; message: string; fatal: boolean } {
-  const mib = (n: number): string => `${Math.round(n / 1024 / 1024)} MiB`;
-  return { name: 'ModelError', message: `too large: ${mib(size)}, the limit is ${mib(LARGEST)}`, fatal: false };
+/** Throws a ModelError when a file has more bytes than can be worked with. */
+export function refuseTooLarge(size: number): void {
+  if (size <= LARGEST) return;
+  const mib = (n: number): string => `${Math.ceil(n / 1024 / 1024)} MiB`;
+  const message = `too large: ${mib(size)}, the limit is ${mib(LARGEST)}`;
+  throw new EngineError({ name: 'ModelError', message, fatal: false });
 }
 
 /** A file's name without folders and ending. */

@@ -4,6 +4,7 @@ import type { HelperReply, HelperRequest, ToLane } from '../messages.ts';
 import { watchPanics } from './errors.ts';
 import { Helper } from './helper.ts';
 import { serve } from './lane.ts';
+import { live } from './life.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
 
@@ -18,4 +19,5 @@ const receive = serve<HelperRequest, HelperReply>(
   (message, transfer) => self.postMessage(message, transfer),
 );
 
+live((message) => self.postMessage(message));
 self.onmessage = ({ data }: MessageEvent<ToLane<HelperRequest>>) => receive(data);

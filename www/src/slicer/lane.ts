@@ -9,6 +9,8 @@ import type {
   ReplyTo,
   Tagged,
   ToLane,
+  ViewReply,
+  ViewRequest,
 } from '../messages.ts';
 import { EngineError, laneDied, toFailure } from './errors.ts';
 
@@ -21,6 +23,7 @@ export interface Lane<Q extends Tagged, A extends Tagged> {
 
 export type LeadLane = Lane<LeadRequest, LeadReply>;
 export type HelperLane = Lane<HelperRequest, HelperReply>;
+export type ViewLane = Lane<ViewRequest, ViewReply>;
 
 /** The end of a thread's message channel, page worker or Node worker. */
 export interface Port {

@@ -1,5 +1,5 @@
 // The lead lane's side of the conversation: it holds the models and the job.
-import { type LoadFiles, modelsIn, stem } from '../files/files.ts';
+import { type LoadFiles, modelsIn, refuseTooLarge, stem } from '../files/files.ts';
 import type { Chunk, Job, Model, Scene } from '../generated/engine/foothold.js';
 import type {
   Bounds,
@@ -94,7 +94,7 @@ export class Lead {
       case 'thumbnail':
         return {
           kind: 'thumbnail',
-          pixels: this.#model(0).thumbnail(Float64Array.from(request.up), request.width, request.height),
+          pixels: this.#model(request.model).thumbnail(Float64Array.from(request.up), request.width, request.height),
         };
       case 'picture':
         return { kind: 'picture', bounds: this.#picture(request.view, request.standing) };
@@ -117,8 +117,9 @@ export class Lead {
   }
 
   async #read({ name, file }: ModelSource): Promise<Model> {
-    const reader = new this.#engine.ModelReader(file.size);
     try {
+      refuseTooLarge(file.size);
+      const reader = new this.#engine.ModelReader(file.size);
       let next = read(file, 0);
       for (let from = 0; from < file.size; from += READ_BYTES) {
         const chunk = await next;

@@ -5,6 +5,7 @@ import type { LeadReply, LeadRequest, ToLane } from '../messages.ts';
 import { watchPanics } from './errors.ts';
 import { serve } from './lane.ts';
 import { Lead } from './lead.ts';
+import { live } from './life.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
 
@@ -19,4 +20,5 @@ const receive = serve<LeadRequest, LeadReply>(
   (message, transfer) => self.postMessage(message, transfer),
 );
 
+live((message) => self.postMessage(message));
 self.onmessage = ({ data }: MessageEvent<ToLane<LeadRequest>>) => receive(data);

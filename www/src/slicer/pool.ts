@@ -196,10 +196,16 @@ export class Pool {
     return (await this.#guard(this.#someLead().call({ kind: 'study', settings, question, standing }))).answer;
   }
 
-  /** The first model with `up` turned up, as RGBA pixels. */
-  async thumbnail(up: readonly number[], width: number, height: number): Promise<Uint8Array> {
+  /** Ways up that lay a model's largest faces on the bed, the axes first. */
+  async faces(model: number, settings: string): Promise<readonly Up[]> {
     await this.ready();
-    return (await this.#guard(this.#someLead().call({ kind: 'thumbnail', up, width, height }))).pixels;
+    return (await this.#guard(this.#someLead().call({ kind: 'directions', model, settings, all: true }))).ups;
+  }
+
+  /** A model with `up` turned up, as RGBA pixels. */
+  async thumbnail(up: readonly number[], width: number, height: number, model: number): Promise<Uint8Array> {
+    await this.ready();
+    return (await this.#guard(this.#someLead().call({ kind: 'thumbnail', model, up, width, height }))).pixels;
   }
 
   /** Makes a picture of the parts on the bed, to be painted; resolves to what it covers. */

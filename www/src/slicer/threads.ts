@@ -4,8 +4,9 @@ import filesUrl from '../generated/files/foothold_files_bg.wasm?url';
 import type { HelperReply, HelperRequest, LeadReply, LeadRequest, ViewReply, ViewRequest } from '../messages.ts';
 import viewScript from '../view/view.worker.ts?worker&url';
 import helperScript from './helper.worker.ts?worker&url';
-import { type Lane, type Port, ThreadLane } from './lane.ts';
+import { type Port, ThreadLane, type ViewLane } from './lane.ts';
 import leadScript from './lead.worker.ts?worker&url';
+import { isAlive, watch } from './life.ts';
 import type { LaneMaker } from './pool.ts';
 import { startWorker } from './start-worker.ts';
 
@@ -42,8 +43,6 @@ export function pageLanes(module: WebAssembly.Module): LaneMaker {
   };
 }
 
-export type ViewLane = Lane<ViewRequest, ViewReply>;
-
 export function viewLane(module: WebAssembly.Module): ViewLane {
   return new ThreadLane<ViewRequest, ViewReply>(port(startWorker(viewScript)), module);
 }
@@ -52,7 +51,10 @@ function port(worker: Worker): Port {
   return {
     post: (message, transfer) => worker.postMessage(message, transfer),
     listen: (message, died) => {
-      worker.onmessage = ({ data }: MessageEvent<unknown>) => message(data);
+      worker.onmessage = ({ data }: MessageEvent<unknown>) => {
+        if (isAlive(data)) watch(data, () => died('a worker ended'));
+        else message(data);
+      };
       worker.onerror = (event) => died(event.message === '' ? 'a worker could not start' : event.message);
       worker.onmessageerror = () => died('a message to the page could not be read');
     },

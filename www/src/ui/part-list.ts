@@ -33,7 +33,7 @@ export class PartList extends Element {
     selected: { attribute: false },
     room: { attribute: false },
     laying: { type: Boolean },
-    canLay: { type: Boolean },
+    canClick: { type: Boolean },
     plate: { attribute: false },
     uniform: { state: true },
     showsOwn: { state: true },
@@ -42,10 +42,10 @@ export class PartList extends Element {
   declare parts: readonly Part[];
   declare selected: number | undefined;
   declare room: Room;
-  /** The next click on a face lays it on the bed. */
+  /** A face is being chosen that shall lie on the bed. */
   declare laying: boolean;
   /** Faces can be clicked. */
-  declare canLay: boolean;
+  declare canClick: boolean;
   /** The plate's settings. */
   declare plate: Changes;
   /** All three sizes change together. */
@@ -60,7 +60,7 @@ export class PartList extends Element {
     this.selected = undefined;
     this.room = [220, 220, 250];
     this.laying = false;
-    this.canLay = false;
+    this.canClick = false;
     this.plate = {};
     this.uniform = true;
     this.showsOwn = false;
@@ -158,7 +158,7 @@ export class PartList extends Element {
         )}
       </div>
       <div class="row">
-        ${this.canLay ? small(t.parts.layFlat, () => this.tell('lay-flat', !this.laying), this.laying) : nothing}
+        ${small(t.parts.layFlat, () => this.tell('lay-flat', !this.laying), this.laying)}
         ${small(t.parts.drop, () => edit({ kind: 'drop' }))}
         ${small(t.parts.duplicate, () => this.tell('duplicate-part', part.id))}
         ${small(
@@ -169,7 +169,7 @@ export class PartList extends Element {
           this.showsOwn,
         )}
       </div>
-      ${this.laying ? html`<p class="hint">${t.parts.layHow}</p>` : nothing}
+      ${this.laying ? html`<p class="hint">${this.canClick ? t.parts.layHow : t.parts.layChoose}</p>` : nothing}
       ${this.showsOwn ? this.#own(part) : nothing}
     </div>`;
   }

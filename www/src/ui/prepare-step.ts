@@ -3,6 +3,7 @@ import { html, nothing, type TemplateResult } from 'lit';
 import settingsSchema from '../../../schema/settings.schema.json';
 import { t } from '../i18n/text.ts';
 import type { Edit, ModelSource } from '../messages.ts';
+import type { Part } from '../parts.ts';
 import { chosenIn, offered, withProfile } from '../profiles/choice.ts';
 import { type Changes, withChange } from '../settings/changes.ts';
 import type { Schema } from '../settings/fields.ts';
@@ -10,6 +11,7 @@ import { roomOf } from '../settings/room.ts';
 import { canDrawSpace } from '../view/webgl.ts';
 import './base-layer-panel.ts';
 import './drop-zone.ts';
+import './face-chooser.ts';
 import './orientation-panel.ts';
 import './part-list.ts';
 import './plane-panel.ts';
@@ -21,7 +23,7 @@ import type { SettingChange } from './settings-form.ts';
 import { StepPart } from './step-part.ts';
 
 export class PrepareStep extends StepPart {
-  readonly #canLay = canDrawSpace();
+  readonly #canClick = canDrawSpace();
 
   protected override render(): TemplateResult {
     const { model, engine, changes, settingsNotes, frame } = this.state;
@@ -83,6 +85,7 @@ export class PrepareStep extends StepPart {
 
   #parts(models: Extract<typeof this.state.model, { kind: 'open' }>['models']): TemplateResult {
     const { parts, selected, changes, laying, trouble } = this.state;
+    const chosen = parts.find(({ id }) => id === selected);
     return html`
       <part-list
         .models=${models}
@@ -91,18 +94,18 @@ export class PrepareStep extends StepPart {
         .room=${roomOf(changes)}
         .plate=${changes}
         .laying=${laying}
-        .canLay=${this.#canLay}
+        .canClick=${this.#canClick}
         @select-part=${({ detail }: CustomEvent<number | null>) => this.session?.select(detail ?? undefined)}
         @duplicate-part=${({ detail }: CustomEvent<number>) => void this.session?.duplicate(detail)}
         @remove-part=${({ detail }: CustomEvent<number>) => void this.session?.remove(detail)}
-        @edit-part=${({ detail: { id, edit } }: CustomEvent<{ id: number; edit: Edit }>) =>
-          void this.session?.change(id, edit)}
+        @edit-part=${this.#edit}
         @move-part=${({ detail: { id, x, y } }: CustomEvent<{ id: number; x: number; y: number }>) =>
           void this.session?.moveTo(id, x, y)}
         @own-part=${({ detail: { id, own } }: CustomEvent<{ id: number; own: Changes }>) =>
           void this.session?.giveOwn(id, own)}
         @lay-flat=${({ detail }: CustomEvent<boolean>) => this.store?.update({ laying: detail })}
       ></part-list>
+      ${laying && chosen !== undefined ? this.#faces(chosen) : nothing}
       ${
         parts.length > 1
           ? html`<button type="button" class="button small" @click=${() => void this.session?.arrange()}>
@@ -113,6 +116,19 @@ export class PrepareStep extends StepPart {
       ${trouble === undefined ? nothing : problemBox(trouble)}
     `;
   }
+
+  #faces(part: Part): TemplateResult {
+    return html`<face-chooser
+      .subject=${part}
+      .state=${this.state}
+      .session=${this.session}
+      @edit-part=${this.#edit}
+    ></face-chooser>`;
+  }
+
+  #edit = ({ detail: { id, edit } }: CustomEvent<{ id: number; edit: Edit }>): void => {
+    void this.session?.change(id, edit);
+  };
 
   #history(): TemplateResult {
     const { past, future } = this.state.history;

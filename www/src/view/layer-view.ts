@@ -1,11 +1,15 @@
 // The picture: one layer's paths, or the model on the bed. Events -> camera -> the engine paints.
 import { html, nothing, type TemplateResult } from 'lit';
+import { keyed } from 'lit/directives/keyed.js';
 import { t } from '../i18n/text.ts';
 import type { Bounds, LegendEntry, PictureView, Standing, Theme } from '../messages.ts';
 import { Part } from '../ui/part.ts';
 import { type Camera, fitTo, numbers, pan, type Size, type Spot, zoom } from './camera.ts';
 import { listen } from './gestures.ts';
-import type { LayerText, Painter } from './painter.ts';
+import { isBroken, type LayerText, type Painter } from './painter.ts';
+
+/** A layer whose lane broke is tried again so often. */
+const MOST_TRIES = 3;
 
 /** What stands in the view: its bounds, and the camera once it was shown. */
 interface Shown {
@@ -26,6 +30,7 @@ export class LayerView extends Part {
     extent: { attribute: false },
     label: { attribute: false },
     dark: { attribute: false },
+    lane: { state: true },
   };
   declare painter: Painter | undefined;
   declare show: 'model' | 'layers';
@@ -41,14 +46,17 @@ export class LayerView extends Part {
   declare extent: Bounds | undefined;
   declare label: string;
   declare dark: boolean;
+  /** The view lane that the layer's canvas is for; 0 before one has it. */
+  declare lane: number;
 
   readonly #cameras = new Map<unknown, Camera>();
   #size: Size = { width: 1, height: 1 };
   #pictured: (Shown & { side: PictureView }) | undefined;
-  #layered: Shown | undefined;
+  #layered: (Shown & { lane: number }) | undefined;
   /** The job whose layers the camera was set up for. */
   #job: unknown;
-  #adopted = false;
+  /** How often in turn a lane broke. */
+  #broken = 0;
   #drawing = false;
   #again = false;
 
@@ -64,12 +72,16 @@ export class LayerView extends Part {
     this.extent = undefined;
     this.label = '';
     this.dark = false;
+    this.lane = 0;
   }
 
   protected override render(): TemplateResult {
     return html`
       <div class="stage" tabindex="0" role="application" aria-label=${t.view.canvas}>
-        <canvas class="layer-canvas" role="img" aria-label=${this.label} ?hidden=${this.show !== 'layers'}></canvas>
+        ${keyed(
+          this.lane,
+          html`<canvas class="layer-canvas" role="img" aria-label=${this.label} ?hidden=${this.show !== 'layers'}></canvas>`,
+        )}
         <canvas class="model-canvas" role="img" aria-label=${this.label} ?hidden=${this.show !== 'model'}></canvas>
         ${this.show === 'layers' && this.layer === undefined ? html`<p class="empty">${t.view.empty}</p>` : nothing}
         <div class="zoom-buttons">
@@ -143,9 +155,10 @@ export class LayerView extends Part {
     try {
       if (this.painter !== undefined)
         await (this.show === 'layers' ? this.#drawLayer(this.painter) : this.#drawModel(this.painter));
+      this.#broken = 0;
     } catch (error) {
-      // A cancelled job ends the lead in the middle of a picture; the next frame asks the new one.
-      this.tell('paint-failed', error);
+      // A cancelled job ends the lead in the middle of a picture, an engine may break: the next frame asks the new one.
+      if (isBroken(error) && ++this.#broken < MOST_TRIES) this.#again = true;
     } finally {
       this.#drawing = false;
       if (this.#again) {
@@ -159,11 +172,12 @@ export class LayerView extends Part {
     const { layer, job } = this;
     if (layer === undefined) return;
     if (!this.hidden) await this.#adopt(painter);
-    if (this.#layered?.key !== layer.text) {
+    const { lanes } = painter;
+    if (this.#layered?.key !== layer.text || this.#layered.lane !== lanes) {
       const { bounds, legend } = await painter.layer(layer);
       if (this.#job !== job) this.#cameras.delete('layers');
       this.#job = job;
-      this.#layered = { key: layer.text, bounds };
+      this.#layered = { key: layer.text, bounds, lane: lanes };
       this.tell<readonly LegendEntry[]>('legend', legend);
     }
     if (this.hidden) return;
@@ -199,11 +213,13 @@ export class LayerView extends Part {
     return this.dark ? 'dark' : 'light';
   }
 
+  /** Gives the lane a canvas; a new lane needs a new one. */
   async #adopt(painter: Painter): Promise<void> {
+    if (this.lane === painter.lanes) return;
+    this.lane = painter.lanes;
+    await this.updateComplete;
     const canvas = this.querySelector<HTMLCanvasElement>('.layer-canvas');
-    if (this.#adopted || canvas === null) return;
-    this.#adopted = true;
-    await painter.adopt(canvas.transferControlToOffscreen());
+    if (canvas !== null) await painter.adopt(canvas.transferControlToOffscreen());
   }
 }
 

@@ -1,7 +1,20 @@
 // What the view asks for to be painted: layers by the view lane, the model's picture by the lead.
-import type { Bounds, CameraNumbers, LegendEntry, Moves, PictureView, Shape, Standing, Theme } from '../messages.ts';
+import type {
+  Bounds,
+  CameraNumbers,
+  LegendEntry,
+  Moves,
+  PictureView,
+  ReplyTo,
+  Shape,
+  Standing,
+  Theme,
+  ViewReply,
+  ViewRequest,
+} from '../messages.ts';
+import { EngineError } from '../slicer/errors.ts';
+import type { ViewLane } from '../slicer/lane.ts';
 import type { Pool } from '../slicer/pool.ts';
-import type { ViewLane } from '../slicer/threads.ts';
 import type { RoleColour } from './colours.ts';
 
 /** A layer's G-code, with the travel to it, and the settings it was made with. */
@@ -13,7 +26,9 @@ export interface LayerText {
 }
 
 export interface Painter {
-  /** Gives the layer canvas away; once. */
+  /** Counts the view lanes: one that broke was replaced, and its canvas is lost. */
+  readonly lanes: number;
+  /** Gives the layer canvas away; once for each view lane. */
   adopt(canvas: OffscreenCanvas): Promise<void>;
   layer(layer: LayerText): Promise<{ readonly bounds: Bounds; readonly legend: readonly LegendEntry[] }>;
   paintLayer(camera: CameraNumbers, theme: Theme): Promise<void>;
@@ -28,15 +43,39 @@ export interface Painter {
   paintPicture(camera: CameraNumbers, theme: Theme): Promise<ImageBitmap | undefined>;
 }
 
-export function painter(pool: Pool, lane: ViewLane): Painter {
+/** `start` makes a view lane, and another one when that broke. */
+export function painter(pool: Pool, start: () => ViewLane): Painter {
+  let lane = start();
+  let lanes = 1;
+  const call = async <R extends ViewRequest>(
+    request: R,
+    transfer?: Transferable[],
+  ): Promise<ReplyTo<ViewReply, R['kind']>> => {
+    const asked = lane;
+    try {
+      return await asked.call(request, transfer);
+    } catch (error) {
+      if (isBroken(error) && asked === lane) {
+        lane = start();
+        lanes++;
+      }
+      throw error;
+    }
+  };
   return {
-    adopt: async (canvas) => void (await lane.call({ kind: 'canvas', canvas }, [canvas])),
-    layer: ({ text, settings, marks }) => lane.call({ kind: 'layer', text, settings, marks }),
-    paintLayer: async (camera, theme) => void (await lane.call({ kind: 'paint', camera, theme })),
+    get lanes() {
+      return lanes;
+    },
+    adopt: async (canvas) => void (await call({ kind: 'canvas', canvas }, [canvas])),
+    layer: ({ text, settings, marks }) => call({ kind: 'layer', text, settings, marks }),
+    paintLayer: async (camera, theme) => void (await call({ kind: 'paint', camera, theme })),
     picture: (side, standing) => pool.picture(side, standing),
-    roles: async () => JSON.parse((await lane.call({ kind: 'roles' })).roles) as readonly RoleColour[],
+    roles: async () => JSON.parse((await call({ kind: 'roles' })).roles) as readonly RoleColour[],
     shape: (model) => pool.shape(model),
-    moves: ({ text, settings }) => lane.call({ kind: 'moves', text, settings }),
+    moves: ({ text, settings }) => call({ kind: 'moves', text, settings }),
     paintPicture: (camera, theme) => pool.paint(camera, theme),
   };
 }
+
+/** Whether an error ended its lane: another try talks to a new one. */
+export const isBroken = (error: unknown): boolean => error instanceof EngineError && error.fatal;

@@ -10,7 +10,7 @@ import { Part as Element } from '../ui/part.ts';
 import type { Size, Spot } from './camera.ts';
 import { type ColourBy, extent, indices, insideRoles, palette, type RoleColour } from './colours.ts';
 import { fitted, type Orbit, type Point, panned, sides, turned, zoomed } from './orbit.ts';
-import type { Painter } from './painter.ts';
+import { isBroken, type Painter } from './painter.ts';
 import type { Stage } from './stage.ts';
 
 /** Layers whose G-code is read at a time. */
@@ -22,7 +22,7 @@ const KEY_ZOOM = 1.25;
 const WHEEL_ZOOM = 0.0018;
 /** Models of more triangles are drawn as boxes: they would take the memory that slicing needs. */
 const MOST_DRAWN = 6_000_000;
-/** A model's triangles are asked for again when a job was cancelled meanwhile, but not for ever. */
+/** What an engine did not answer (a job was cancelled, the engine broke) is asked for again, but not for ever. */
 const MOST_TRIES = 3;
 /** A pointer that moved less, px, was a click. */
 const CLICK = 4;
@@ -266,7 +266,7 @@ export class SpaceView extends Element {
       const total = result.gcode.layers.length;
       for (let first = 0; first < total && this.#told.result === result; first += BATCH_LAYERS) {
         const text = layersOf(result.gcode, first, Math.min(first + BATCH_LAYERS, total));
-        const moves = await this.painter?.moves({ text, settings: result.settings });
+        const moves = await this.#moves(text, result.settings);
         if (moves === undefined || this.#told.result !== result) break;
         this.#batches.push(moves);
         stage.addBeads(moves, indices(this.colourBy, moves, this.#range()));
@@ -278,6 +278,17 @@ export class SpaceView extends Element {
       this.#reading--;
       this.#told.colours = undefined;
       this.requestUpdate();
+    }
+  }
+
+  /** The moves of some layers; a view lane that breaks is replaced. */
+  async #moves(text: Uint8Array, settings: string): Promise<Moves | undefined> {
+    for (let tries = 1; ; tries++) {
+      try {
+        return await this.painter?.moves({ text, settings });
+      } catch (error) {
+        if (!isBroken(error) || tries === MOST_TRIES) throw error;
+      }
     }
   }
 

@@ -4,6 +4,7 @@ import type { CameraNumbers, LegendEntry, Moves, Theme, ToLane, ViewReply, ViewR
 import { watchPanics } from '../slicer/errors.ts';
 import { serve } from '../slicer/lane.ts';
 import { boundsOf } from '../slicer/lead.ts';
+import { live } from '../slicer/life.ts';
 import { canvasSize } from './camera.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
@@ -66,4 +67,5 @@ const receive = serve<ViewRequest, ViewReply>(
   (message, transfer) => self.postMessage(message, transfer),
 );
 
+live((message) => self.postMessage(message));
 self.onmessage = ({ data }: MessageEvent<ToLane<ViewRequest>>) => receive(data);
