@@ -1,7 +1,6 @@
 // The lessons and the panels with pictures: what they show is what the engine computed.
-import AxeBuilder from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
-import { expect, ready, test } from './page.ts';
+import { expect, noFindings, opened, test } from './page.ts';
 
 interface Facts {
   readonly [name: string]: number;
@@ -74,7 +73,7 @@ test('settings that contradict each other are said, not drawn', async ({ page })
 });
 
 test('every kind of base layer is drawn, and one is chosen', async ({ page }) => {
-  await ready(page);
+  await opened(page);
   const kinds = page.getByRole('radiogroup', { name: 'How shall it stick?' });
   await expect(kinds.getByRole('radio')).toHaveCount(5);
   await expect(kinds.locator('svg')).toHaveCount(5);
@@ -87,7 +86,7 @@ test('every kind of base layer is drawn, and one is chosen', async ({ page }) =>
 });
 
 test('directions are compared, and their pictures shown', async ({ page }) => {
-  await ready(page);
+  await opened(page);
   await page.getByText('Which way up?').click();
   await page.getByRole('button', { name: 'Compare directions' }).click();
   const strip = page.getByRole('radiogroup', { name: 'Which way up?' });
@@ -97,19 +96,15 @@ test('directions are compared, and their pictures shown', async ({ page }) => {
   await expect(strip.getByText('least support')).toHaveCount(1);
 });
 
-for (const colorScheme of ['light', 'dark'] as const) {
-  test(`axe finds nothing in the lessons, ${colorScheme}`, async ({ page }) => {
-    await page.emulateMedia({ colorScheme });
-    for (const [link, id] of [
-      ['teeth/7', 'compare'],
-      ['plates/4', 'region'],
-      ['orientation/3', 'network'],
-    ] as const) {
-      await step(page, link, id);
-      const { violations } = await new AxeBuilder({ page }).analyze();
-      expect(violations.map((it) => `${it.id}: ${it.nodes.map(({ target }) => target.join(' ')).join(', ')}`)).toEqual(
-        [],
-      );
-    }
-  });
-}
+test('axe finds nothing in the lessons', async ({ page }) => {
+  for (const [link, id] of [
+    ['teeth/7', 'compare'],
+    ['plates/4', 'region'],
+    ['features/5', 'structures'],
+    ['orientation/3', 'network'],
+  ] as const) {
+    await page.emulateMedia({ colorScheme: 'light' });
+    await step(page, link, id);
+    await noFindings(page, link);
+  }
+});

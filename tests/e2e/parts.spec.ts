@@ -1,10 +1,10 @@
 // Several parts: added, changed, undone, kept; the settings' depths, search and files.
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import type { Page } from '@playwright/test';
 import { foothold } from '../node/command.ts';
 import { ball, binaryStl, box } from '../node/shapes.ts';
-import { download, downloadButton, expect, openFile, ready, sliceButton, stepTab, test } from './page.ts';
+import { download, downloadButton, expect, fileIn, opened, openFile, sliceButton, stepTab, test } from './page.ts';
 
 const part = (page: Page, name: string) =>
   page.getByRole('list', { name: 'Parts on the bed' }).getByRole('button', { name: new RegExp(`^${name}`) });
@@ -16,39 +16,30 @@ async function type(page: Page, label: string, value: string): Promise<void> {
   await field.press('Enter');
 }
 
-async function files(folder: string): Promise<{ cube: string; round: string }> {
-  mkdirSync(folder, { recursive: true });
-  const [cube, round] = [path.join(folder, 'cube.stl'), path.join(folder, 'round.stl')];
-  writeFileSync(cube, binaryStl(box(20, 10, 6)));
-  writeFileSync(round, binaryStl(ball(8, 16)));
-  return { cube, round };
-}
+const cube = { name: 'cube.stl', bytes: binaryStl(box(20, 10, 6)) };
+const round = { name: 'round.stl', bytes: binaryStl(ball(8, 16)) };
 
-async function addFile(page: Page, file: string): Promise<void> {
-  const chooser = page.waitForEvent('filechooser');
-  await page.getByRole('button', { name: 'Add model' }).click();
-  await (await chooser).setFiles(file);
-}
+/** Both, as files for the command line. */
+const onDisk = (folder: string): string[] => [cube, round].map((it) => fileIn(folder, it.name, it.bytes));
 
 test("two models are arranged, and their bytes are the command line's", async ({ page }, { outputDir }) => {
-  const { cube, round } = await files(outputDir);
-  await ready(page);
+  await opened(page);
   await openFile(page, cube);
   await expect(part(page, 'cube.stl')).toBeVisible();
-  await addFile(page, round);
+  await openFile(page, round, 'Add model');
   await expect(part(page, 'round.stl')).toBeVisible();
   await sliceButton(page).click();
   await expect(downloadButton(page)).toBeEnabled();
   const bytes = readFileSync((await download(page)).file);
-  expect(await foothold(['slice', cube, round, '-o', 'both.gcode'], outputDir)).toMatchObject({ code: 0, err: '' });
+  expect(await foothold(['slice', ...onDisk(outputDir), '-o', 'both.gcode'], outputDir)).toMatchObject({
+    code: 0,
+    err: '',
+  });
   expect(readFileSync(path.join(outputDir, 'both.gcode')).equals(bytes)).toBe(true);
 });
 
-test('a part is turned, scaled, mirrored, moved, duplicated and removed; all of it can be undone', async ({ page }, {
-  outputDir,
-}) => {
-  const { cube } = await files(outputDir);
-  await ready(page);
+test('a part is turned, scaled, mirrored, moved, duplicated and removed; all of it can be undone', async ({ page }) => {
+  await opened(page);
   await openFile(page, cube);
   await expect(part(page, 'cube.stl')).toContainText('20 × 10 × 6 mm');
   await part(page, 'cube.stl').click();
@@ -78,9 +69,8 @@ test('a part is turned, scaled, mirrored, moved, duplicated and removed; all of 
   await expect(part(page, 'cube.stl')).toContainText('20 × 10 × 6 mm');
 });
 
-test('a part outside the printer is marked, and slicing says where it stands', async ({ page }, { outputDir }) => {
-  const { cube } = await files(outputDir);
-  await ready(page);
+test('a part outside the printer is marked, and slicing says where it stands', async ({ page }) => {
+  await opened(page);
   await openFile(page, cube);
   await part(page, 'cube.stl').click();
   await type(page, 'Middle along X, mm', '5');
@@ -98,9 +88,8 @@ test('a part outside the printer is marked, and slicing says where it stands', a
   for (const x of xs) expect(Math.abs(x - 50)).toBeLessThan(10);
 });
 
-test('settings and parts are there again at the next visit', async ({ page }, { outputDir }) => {
-  const { cube } = await files(outputDir);
-  await ready(page);
+test('settings and parts are there again at the next visit', async ({ page }) => {
+  await opened(page);
   await openFile(page, cube);
   await part(page, 'cube.stl').click();
   await page.getByRole('button', { name: 'Turn about Y by 90°' }).click();
@@ -113,7 +102,7 @@ test('settings and parts are there again at the next visit', async ({ page }, { 
 });
 
 test('settings: depths, search, export, import, undo', async ({ page }) => {
-  await ready(page);
+  await opened(page);
   await expect(page.getByLabel('Travel', { exact: true })).toHaveCount(0);
   await page.getByRole('button', { name: 'Usual' }).click();
   await expect(page.getByLabel('Travel', { exact: true })).toBeVisible();
@@ -127,24 +116,19 @@ test('settings: depths, search, export, import, undo', async ({ page }) => {
   await page.getByRole('button', { name: 'Reset', exact: true }).click();
   await expect(page.getByLabel('Junction deviation', { exact: true })).not.toHaveValue('0.05');
 
-  const choose = async (text: string): Promise<void> => {
-    const chooser = page.waitForEvent('filechooser');
-    await page.getByRole('button', { name: 'Import' }).click();
-    await (await chooser).setFiles({ name: 'my.json', mimeType: 'application/json', buffer: Buffer.from(text) });
-  };
-  await choose(readFileSync(file, 'utf8'));
+  const importText = (bytes: string): Promise<void> => openFile(page, { name: 'my.json', bytes }, 'Import');
+  await importText(readFileSync(file, 'utf8'));
   await expect(page.getByLabel('Junction deviation', { exact: true })).toHaveValue('0.05');
-  await choose('{"walls":{"count":-3}}');
+  await importText('{"walls":{"count":-3}}');
   await expect(page.getByRole('alert')).toContainText('walls.count');
   await page.getByRole('button', { name: 'Undo' }).click();
   await expect(page.getByLabel('Junction deviation', { exact: true })).not.toHaveValue('0.05');
 });
 
 test('a part has settings of its own: marked, undone, kept, and printed', async ({ page }, { outputDir }) => {
-  const { cube, round } = await files(outputDir);
-  await ready(page);
+  await opened(page);
   await openFile(page, cube);
-  await addFile(page, round);
+  await openFile(page, round, 'Add model');
   await expect(part(page, 'round.stl')).toBeVisible();
   await page.getByRole('button', { name: 'Settings for this part' }).click();
   const own = page.getByRole('region', { name: 'Settings for round.stl' });
@@ -157,25 +141,25 @@ test('a part has settings of its own: marked, undone, kept, and printed', async 
   await expect(part(page, 'round.stl')).not.toContainText('Own settings');
   await page.getByRole('button', { name: 'Redo' }).click();
   await expect(part(page, 'round.stl')).toContainText('Own settings');
-  await page.reload();
+  await page.goto('./');
   await expect(part(page, 'round.stl')).toContainText('Own settings');
   await sliceButton(page).click();
   await expect(downloadButton(page)).toBeEnabled();
   const text = readFileSync((await download(page)).file, 'utf8');
   expect(text).toContain('; models.round.infill.density = 1');
   expect(
-    await foothold(['slice', cube, round, '-o', 'own.gcode', '--set-for', 'round:infill.density=1'], outputDir),
+    await foothold(
+      ['slice', ...onDisk(outputDir), '-o', 'own.gcode', '--set-for', 'round:infill.density=1'],
+      outputDir,
+    ),
   ).toMatchObject({ code: 0 });
   expect(readFileSync(path.join(outputDir, 'own.gcode'), 'utf8')).toBe(text);
 });
 
-test('parts printed one after another: apart on the bed, one done before the next begins', async ({ page }, {
-  outputDir,
-}) => {
-  const { cube, round } = await files(outputDir);
-  await ready(page);
+test('parts printed one after another: apart on the bed, one done before the next begins', async ({ page }) => {
+  await opened(page);
   await openFile(page, cube);
-  await addFile(page, round);
+  await openFile(page, round, 'Add model');
   await expect(part(page, 'round.stl')).toBeVisible();
   await page.getByRole('searchbox', { name: 'Search settings' }).last().fill('print sequence');
   await page.getByLabel('Print sequence').selectOption('by_object');

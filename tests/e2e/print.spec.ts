@@ -1,9 +1,8 @@
 // Printing through the real page, with the simulated printer behind `navigator.serial`.
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
-import AxeBuilder from '@axe-core/playwright';
+import { readFileSync } from 'node:fs';
 import { test as base, type Page, type Route } from '@playwright/test';
 import { binaryStl, box } from '../node/shapes.ts';
-import { download, downloadButton, expect, openFile, sliceButton, test } from './page.ts';
+import { download, downloadButton, expect, noFindings, opened, openFile, sliceButton, test } from './page.ts';
 import {
   button,
   commands,
@@ -36,9 +35,9 @@ const slow: Wish = { printer: { moveMs: 200 } };
 const ended = (page: Page) =>
   page.locator('print-job').locator('.problem, [role=status]:has-text("is printed")').first();
 
-async function start(page: Page, it: Wish): Promise<void> {
+async function start(page: Page, it: Wish, address?: string): Promise<void> {
   await withPrinter(page);
-  await printStep(page);
+  await printStep(page, address);
   await wish(page, it);
 }
 
@@ -50,15 +49,11 @@ async function underWay(page: Page, moves = 600, atLeast = 20): Promise<string> 
   return text;
 }
 
-test('slice, connect, print: what the printer accepted is the file', async ({ page }, info) => {
+test('slice, connect, print: what the printer accepted is the file', async ({ page }) => {
   await withPrinter(page);
-  await page.goto('./');
+  await opened(page);
   await wish(page, { ...quick, baud: 250000 });
-  const stl = info.outputPath('plate.stl');
-  mkdirSync(info.outputDir, { recursive: true });
-  writeFileSync(stl, binaryStl(box(12, 12, 1)));
-  await expect(downloadButton(page)).toBeEnabled();
-  await openFile(page, stl);
+  await openFile(page, { name: 'plate.stl', bytes: binaryStl(box(12, 12, 1)) });
   await expect(page.getByText('12 × 12 × 1 mm')).toBeVisible();
   await sliceButton(page).click();
   await expect(page.getByRole('status').filter({ hasText: 'Sliced: 5 layers' })).toBeAttached();
@@ -325,38 +320,27 @@ test('a printer that answers at once, and never more in flight than its buffer h
   expect(fullest).toBeLessThanOrEqual(127);
 });
 
-for (const colorScheme of ['light', 'dark'] as const) {
-  test(`axe finds nothing on the Print step, ${colorScheme}`, async ({ page }) => {
-    const noFindings = async (state: string): Promise<void> => {
-      const { violations } = await new AxeBuilder({ page }).analyze();
-      expect(
-        violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`),
-        state,
-      ).toEqual([]);
-    };
-    await page.emulateMedia({ colorScheme });
-    await start(page, slow);
-    await page.getByText('Send to a print server').click();
-    await noFindings('not connected');
-    await connected(page);
-    await noFindings('connected');
-    await underWay(page, 600, 3);
-    await noFindings('printing');
-    await button(page, 'Pause').click();
-    await expect(button(page, 'Resume')).toBeVisible();
-    await noFindings('paused');
-    await unplug(page);
-    await expect(ended(page)).toContainText('cable pulled');
-    await noFindings('unplugged');
-    await wish(page, { ...slow, resetOnOpen: true });
-    await connected(page);
-    await expect(button(page, 'Begin at this layer')).toBeVisible();
-    await noFindings('start at a layer');
-  });
-}
+test('axe finds nothing on the Print step', async ({ page }) => {
+  await start(page, slow);
+  await page.getByText('Send to a print server').click();
+  await noFindings(page, 'not connected');
+  await connected(page);
+  await underWay(page, 600, 3);
+  await noFindings(page, 'printing');
+  await button(page, 'Pause').click();
+  await expect(button(page, 'Resume')).toBeVisible();
+  await noFindings(page, 'paused');
+  await unplug(page);
+  await expect(ended(page)).toContainText('cable pulled');
+  await noFindings(page, 'unplugged');
+  await wish(page, { ...slow, resetOnOpen: true });
+  await connected(page);
+  await expect(button(page, 'Begin at this layer')).toBeVisible();
+  await noFindings(page, 'connected, start at a layer');
+});
 
 test('connect, print, pause, resume and cancel by keyboard alone', async ({ page }) => {
-  await start(page, slow);
+  await start(page, slow, './');
   const reach = async (name: RegExp): Promise<void> => {
     for (let presses = 0; presses < 60; presses++) {
       const label = await page.evaluate(() => {
@@ -391,7 +375,7 @@ test('connect, print, pause, resume and cancel by keyboard alone', async ({ page
 
 test('without Web Serial the step says so, and the download is there', async ({ page }) => {
   await page.addInitScript(() => Reflect.deleteProperty(Navigator.prototype, 'serial'));
-  await printStep(page);
+  await printStep(page, './');
   await expect(page.getByText('This browser cannot print over USB')).toBeVisible();
   await expect(button(page, 'Connect printer')).toHaveCount(0);
   await expect(downloadButton(page)).toBeEnabled();
@@ -411,7 +395,7 @@ test('a file goes to a print server beside the page, with its key, which is kept
   };
   await page.route('**/api/v1/files/**', hear(201));
   await page.route('**/api/files/local', hear(201));
-  await printStep(page);
+  await printStep(page, './');
   await expect(downloadButton(page)).toBeEnabled();
   await page.getByText('Send to a print server').click();
   await page.getByLabel('Address', { exact: true }).fill(baseURL ?? '');
@@ -431,7 +415,7 @@ test('a file goes to a print server beside the page, with its key, which is kept
 });
 
 base('a server that the page may not talk to: the message says why', async ({ page }) => {
-  await printStep(page);
+  await printStep(page, './');
   await expect(downloadButton(page)).toBeEnabled();
   await page.getByText('Send to a print server').click();
   await page.getByLabel('Address', { exact: true }).fill('octopi.local');

@@ -1,6 +1,7 @@
 // What the tests of the Print step share: a page with the simulated printer behind `navigator.serial`.
 import { readFileSync } from 'node:fs';
 import { expect, type Page } from '@playwright/test';
+import { openFile, UNSLICED } from './page.ts';
 
 /** What the stand-in makes of the printer and its port. */
 export interface Wish {
@@ -65,7 +66,7 @@ export const say = (page: Page, line: string): Promise<void> => page.evaluate((l
 export const button = (page: Page, name: string) => page.getByRole('button', { name, exact: true });
 export const part = (page: Page, name: string) => page.getByRole('region', { name, exact: true });
 
-export async function printStep(page: Page, address = './'): Promise<void> {
+export async function printStep(page: Page, address = UNSLICED): Promise<void> {
   await page.goto(address);
   await page.getByRole('tab', { name: 'Print' }).click();
 }
@@ -78,9 +79,7 @@ export async function connected(page: Page): Promise<void> {
 
 /** Opens a G-code file in the Print step: it prints at once. */
 export async function printFile(page: Page, name: string, text: string): Promise<void> {
-  const chooser = page.waitForEvent('filechooser');
-  await button(page, 'Print a G-code file…').click();
-  await (await chooser).setFiles({ name, mimeType: 'text/x.gcode', buffer: Buffer.from(text) });
+  await openFile(page, { name, bytes: text }, 'Print a G-code file…');
 }
 
 /** The commands of a file, as a printer should see them. */

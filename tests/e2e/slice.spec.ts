@@ -1,5 +1,5 @@
 // The whole way: open a scan, slice, look at layers, download; the bytes are the command line's.
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import { foothold } from '../node/command.ts';
 import { ball, binaryStl, box, bunny, readStl, type Triangle, teapot } from '../node/shapes.ts';
@@ -8,7 +8,9 @@ import {
   download,
   downloadButton,
   expect,
+  fileIn,
   layerSlider,
+  opened,
   openFile,
   picture,
   ready,
@@ -26,13 +28,6 @@ const models: Readonly<Record<string, () => Triangle[]>> = {
   bracket: () => readStl(readFileSync(new URL('../../www/public/sample.stl', import.meta.url))),
 };
 
-function inFolder(folder: string, name: string, bytes: Uint8Array | string): string {
-  mkdirSync(folder, { recursive: true });
-  const file = path.join(folder, name);
-  writeFileSync(file, bytes);
-  return file;
-}
-
 test('the sample is there and sliced, and can be sliced again at one press', async ({ page }) => {
   await ready(page);
   await expect(page.getByText('sample.stl', { exact: true })).toBeVisible();
@@ -46,8 +41,8 @@ test('the sample is there and sliced, and can be sliced again at one press', asy
 test('a scan: open, slice, move the slider, download; bytes as from the command line', async ({ page }, {
   outputDir,
 }) => {
-  const stl = inFolder(outputDir, 'bunny.stl', binaryStl(bunny()));
-  await ready(page);
+  const stl = fileIn(outputDir, 'bunny.stl', binaryStl(bunny()));
+  await opened(page);
   await openFile(page, stl);
   await expect(page.getByText('bunny.stl', { exact: true })).toBeVisible();
   await page.getByLabel('Walls', { exact: true }).first().fill('2');
@@ -75,8 +70,8 @@ test('a scan: open, slice, move the slider, download; bytes as from the command 
 
 for (const [name, triangles] of Object.entries(models)) {
   test(`${name}: the page and the command line write the same bytes`, async ({ page }, { outputDir }) => {
-    const stl = inFolder(outputDir, `${name}.stl`, binaryStl(triangles()));
-    await ready(page);
+    const stl = fileIn(outputDir, `${name}.stl`, binaryStl(triangles()));
+    await opened(page);
     await openFile(page, stl);
     await expect(page.getByText(`${name}.stl`, { exact: true })).toBeVisible();
     await sliceButton(page).click();
@@ -91,8 +86,8 @@ for (const [name, triangles] of Object.entries(models)) {
 }
 
 test('cancel stops the job at once, keeps the model, and the page goes on', async ({ page }, { outputDir }) => {
-  await ready(page);
-  await openFile(page, inFolder(outputDir, 'bunny.stl', binaryStl(bunny())));
+  await opened(page);
+  await openFile(page, fileIn(outputDir, 'bunny.stl', binaryStl(bunny())));
   await expect(page.getByText('bunny.stl', { exact: true })).toBeVisible();
   await page.getByLabel('Layer height').first().fill('0.05');
   await page.getByLabel('Layer height').first().press('Tab');
@@ -106,6 +101,31 @@ test('cancel stops the job at once, keeps the model, and the page goes on', asyn
   await expect(downloadButton(page)).toBeEnabled();
   await stepTab(page, 'Prepare').click();
   await expect(page.getByText('bunny.stl', { exact: true })).toBeVisible();
+});
+
+test('engines that die are replaced: the model stays, the layers are drawn again', async ({ page }) => {
+  await opened(page);
+  await openFile(page, { name: 'cube.stl', bytes: binaryStl(box(20, 20, 2)) });
+  await sliceButton(page).click();
+  await expect(downloadButton(page)).toBeEnabled();
+  await layerSlider(page).fill('3');
+  const before = await settled(page);
+  const kill = async (name: string): Promise<void> => {
+    const worker = page.workers().find((it) => it.url().includes(name));
+    if (worker === undefined) throw new Error(`there is no ${name}`);
+    const ended = worker.waitForEvent('close');
+    await worker.evaluate(() => setTimeout(() => self.close()));
+    await ended;
+  };
+  await kill('view.worker');
+  await layerSlider(page).fill('4');
+  await layerSlider(page).fill('3');
+  await expect(async () => expect((await settled(page)).equals(before)).toBe(true)).toPass();
+  await kill('lead.worker');
+  await sliceButton(page).click();
+  await expect(downloadButton(page)).toBeEnabled();
+  await stepTab(page, 'Prepare').click();
+  await expect(page.getByText('cube.stl', { exact: true })).toBeVisible();
 });
 
 test('zoom and pan change the picture, and Show all brings it back', async ({ page }) => {
@@ -138,7 +158,7 @@ test('a model beside the page opens by ?model=, one elsewhere does not', async (
 });
 
 test('a dropped file opens', async ({ page }) => {
-  await ready(page);
+  await opened(page);
   const bytes = [...binaryStl(box(20, 20, 20))];
   await page.evaluate((numbers) => {
     const data = new DataTransfer();
@@ -150,24 +170,24 @@ test('a dropped file opens', async ({ page }) => {
 });
 
 test('errors stand in words, and the next model opens', async ({ page }, { outputDir }) => {
-  await ready(page);
-  await openFile(page, inFolder(outputDir, 'cut.stl', binaryStl(box(20, 20, 20), 120)));
+  await opened(page);
+  await openFile(page, fileIn(outputDir, 'cut.stl', binaryStl(box(20, 20, 20), 120)));
   await expect(page.getByRole('alert')).toContainText('header says 120 triangles, file holds 12');
   await expect(sliceButton(page)).toBeDisabled();
 
-  await openFile(page, inFolder(outputDir, 'tower.stl', binaryStl(box(10, 10, 900))));
+  await openFile(page, fileIn(outputDir, 'tower.stl', binaryStl(box(10, 10, 900))));
   await expect(page.getByText('10 × 10 × 900 mm')).toBeVisible();
   await sliceButton(page).click();
   await expect(page.getByRole('region', { name: 'Job' }).getByRole('alert')).toContainText('does not fit the printer');
 
-  await openFile(page, inFolder(outputDir, 'cube.stl', binaryStl(box(20, 20, 20))));
+  await openFile(page, fileIn(outputDir, 'cube.stl', binaryStl(box(20, 20, 20))));
   await sliceButton(page).click();
   await expect(downloadButton(page)).toBeEnabled();
   await expect(page.getByRole('alert')).toHaveCount(0);
 });
 
 test('a value outside its range is not taken and says why', async ({ page }) => {
-  await ready(page);
+  await opened(page);
   const height = page.getByLabel('Layer height').first();
   await height.fill('90');
   await height.press('Tab');

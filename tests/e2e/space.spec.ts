@@ -1,14 +1,12 @@
 // The pictures in space, drawn by the browser's own software renderer.
-import { mkdirSync, writeFileSync } from 'node:fs';
-import path from 'node:path';
 import type { Page } from '@playwright/test';
 import { binaryStl, box } from '../node/shapes.ts';
-import { expect, layerSlider, openFile, picture, ready, settled, sliceButton, stepTab, test } from './page.ts';
+import { expect, layerSlider, opened, openFile, picture, ready, settled, sliceButton, stepTab, test } from './page.ts';
 
 test.use({
   launchOptions: [
     async ({ launchOptions }, use) => {
-      const args = (launchOptions.args ?? []).filter((it) => it !== '--disable-gpu');
+      const args = (launchOptions.args ?? []).filter((it) => !['--disable-gpu', '--disable-3d-apis'].includes(it));
       await use({ ...launchOptions, args: [...args, '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
     },
     { scope: 'worker' },
@@ -17,12 +15,9 @@ test.use({
 
 const row = (page: Page) => page.getByRole('list', { name: 'Parts on the bed' }).getByRole('button').first();
 
-test('a part is chosen, dragged and laid on a face in the picture', async ({ page }, { outputDir }) => {
-  mkdirSync(outputDir, { recursive: true });
-  const file = path.join(outputDir, 'bar.stl');
-  writeFileSync(file, binaryStl(box(40, 20, 10)));
-  await ready(page);
-  await openFile(page, file);
+test('a part is chosen, dragged and laid on a face in the picture', async ({ page }) => {
+  await opened(page);
+  await openFile(page, { name: 'bar.stl', bytes: binaryStl(box(40, 20, 10)) });
   await expect(row(page)).toContainText('40 × 20 × 10 mm');
   await page.getByRole('button', { name: 'Top', exact: true }).click();
   const before = await settled(page);
@@ -85,7 +80,7 @@ test('the beads in space: layers, moves, colours, roles, flat view', async ({ pa
 });
 
 test('two clicks measure a distance', async ({ page }) => {
-  await ready(page);
+  await opened(page);
   await page.getByRole('button', { name: 'Top', exact: true }).click();
   await settled(page);
   await page.getByRole('button', { name: 'Measure' }).click();
