@@ -126,6 +126,8 @@ test('the whole way on a phone, and nothing is wider than the screen', async ({ 
   await page.getByRole('button', { name: /^bar.stl/ }).tap();
   await page.getByRole('button', { name: 'Turn about Z by 90°' }).tap();
   await expect(page.getByRole('button', { name: /^bar.stl/ })).toContainText('10 × 30 × 4 mm');
+  await page.getByRole('button', { name: 'Lay a face flat' }).tap();
+  await expect(page.getByRole('button', { name: 'Lay it as in picture 6' })).toBeAttached();
   await page.getByLabel('Walls', { exact: true }).fill('2');
   await fits('phone, prepare');
   await sliceButton(page).tap();

@@ -96,7 +96,7 @@ test('settings and parts are there again at the next visit', async ({ page }) =>
   await expect(part(page, 'cube.stl')).toContainText('6 × 10 × 20 mm');
   await page.getByLabel('Walls', { exact: true }).fill('5');
   await page.getByLabel('Walls', { exact: true }).press('Tab');
-  await page.reload();
+  await page.goto('./');
   await expect(part(page, 'cube.stl')).toContainText('6 × 10 × 20 mm');
   await expect(page.getByLabel('Walls', { exact: true })).toHaveValue('5');
 });

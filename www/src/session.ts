@@ -61,7 +61,7 @@ export class Session {
       if (linked !== undefined) this.#store.update(linked);
       const named = namedModel(address) ?? (linked === undefined ? undefined : SAMPLE);
       if (named !== undefined) {
-        await this.open([await fetched(named, lastPart(named))]);
+        await this.#open([await fetched(named, lastPart(named))], this.#store.state.step);
         if (linked !== undefined) this.#store.update({ step: 'learn' });
         return;
       }

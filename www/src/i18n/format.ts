@@ -3,6 +3,8 @@
 export interface Formats {
   /** A number with so many digits after the point at most. */
   number(value: number, digits: number): string;
+  /** Two numbers as "0.3–0.4", one where they look the same. */
+  range(low: number, high: number, digits: number): string;
   /** 44 × 24 × 48 mm */
   size(size: readonly number[]): string;
   volume(mm3: number): string;
@@ -22,6 +24,7 @@ export function formats(locale: string, [h, min, s]: TimeUnits): Formats {
   const twoDigits = new Intl.NumberFormat(locale, { minimumFractionDigits: 2, maximumFractionDigits: 2 });
   return {
     number,
+    range: (low, high, digits) => [...new Set([number(low, digits), number(high, digits)])].join('–'),
     size: (size) => `${size.map((length) => number(length, 1)).join(' × ')} mm`,
     volume: (mm3) => `${number(mm3 / 1000, 1)} cm³`,
     metres: (mm) => `${number(mm / 1000, 2)} m`,

@@ -73,7 +73,8 @@ export class BaseLayerPanel extends StepPart {
       ${drawing(layer.svg, words.picture(name))}
       <span class="kind-name">${name}</span>
       <span class="kind-figures" id="base-${layer.kind}">
-        ${t.format.number(layer.filament_mm3 + 0, 0)} mm³ · ${t.format.number(100 * layer.attachment_share, 0)} %
+        <span title=${words.filament}>${t.format.number(layer.filament_mm3 + 0, 0)} mm³</span> ·
+        <span title=${words.attachmentHelp}>${t.format.number(100 * layer.attachment_share, 0)} %</span>
         ${best ? html`<span class="badge best">${words.best}</span>` : nothing}
       </span>
     </label>`;
@@ -81,11 +82,11 @@ export class BaseLayerPanel extends StepPart {
 
   #details(layer: BaseLayer): TemplateResult {
     const words = t.panels.base;
-    const two = (mm: number): string => t.format.number(mm, 2);
     const { teeth } = layer;
+    const bites = teeth && t.format.range(teeth.bite_min_mm, teeth.bite_max_mm, 2);
     return html`
       <p>${words.what[layer.kind]}</p>
-      ${teeth ? html`<p class="hint">${words.teeth(String(teeth.placed), two(teeth.bite_min_mm), two(teeth.bite_max_mm))}</p>` : nothing}
+      ${teeth && bites ? html`<p class="hint">${words.teeth(String(teeth.placed), bites)}</p>` : nothing}
       ${
         layer.warnings.length === 0
           ? nothing

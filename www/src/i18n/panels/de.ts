@@ -33,7 +33,7 @@ export const panels: PanelWords = {
     attachment: 'Hält',
     attachmentHelp: 'Länge des Umrisses, die gehalten wird, und ihr Anteil an allen Umrissen',
     computed: 'Berechnet in',
-    teeth: (placed, min, max) => `${placed} Zähne, ${min} bis ${max} mm tief`,
+    teeth: (placed, bites) => `${placed} Zähne, ${bites} mm tief`,
   },
   plane: {
     heading: 'Stützen von der Seite',
@@ -130,7 +130,7 @@ export const panels: PanelWords = {
       outline: {
         title: 'Umriss',
         text: (n: Fact) =>
-          `Die erste Schicht hat ${n('contours')} Umriss(e) mit ${n('vertices')} Ecken, zusammen ${n('length', 1)} mm lang. Alles wird bis zu diesem gedruckten Umriss gemessen.`,
+          `Umrisse der ersten Schicht: ${n('contours')}, mit ${n('vertices')} Ecken, zusammen ${n('length', 1)} mm lang. Alles wird bis zu diesem gedruckten Umriss gemessen.`,
       },
       offset: {
         title: 'Versetzen',
@@ -172,7 +172,7 @@ export const panels: PanelWords = {
       contour: {
         title: 'Kontur',
         text: (n: Fact) =>
-          `Die Ebene schneidet das Teil in ${n('contours')} Kontur(en), zusammen ${n('area', 0)} mm². ${n('hanging', 1)} mm davon hängen über den Winkel hinaus (rot).`,
+          `Konturen des Teils in dieser Ebene: ${n('contours')}, zusammen ${n('area', 0)} mm². ${n('hanging', 1)} mm davon hängen über den Winkel hinaus (rot).`,
       },
       points: {
         title: 'Punkte',

@@ -35,7 +35,7 @@ export const panels = {
     attachment: 'Holds',
     attachmentHelp: 'Length of the part’s outline that it holds, and its share of all outlines',
     computed: 'Computed in',
-    teeth: (placed: string, min: string, max: string) => `${placed} teeth, biting ${min} to ${max} mm`,
+    teeth: (placed: string, bites: string) => `${placed} teeth, biting ${bites} mm`,
   },
   plane: {
     heading: 'Supports from the side',
@@ -132,7 +132,7 @@ export const panels = {
       outline: {
         title: 'Outline',
         text: (n: Fact) =>
-          `The first layer has ${n('contours')} outline(s) with ${n('vertices')} corners, ${n('length', 1)} mm long in all. Everything is measured to this printed outline.`,
+          `Outlines of the first layer: ${n('contours')}, with ${n('vertices')} corners, ${n('length', 1)} mm long in all. Everything is measured to this printed outline.`,
       },
       offset: {
         title: 'Offset',
@@ -174,7 +174,7 @@ export const panels = {
       contour: {
         title: 'Contour',
         text: (n: Fact) =>
-          `The plane cuts the part in ${n('contours')} contour(s), ${n('area', 0)} mm² in all. ${n('hanging', 1)} mm of them hang past the angle (red).`,
+          `Contours of the part in this plane: ${n('contours')}, ${n('area', 0)} mm² in all. ${n('hanging', 1)} mm of them hang past the angle (red).`,
       },
       points: {
         title: 'Points',

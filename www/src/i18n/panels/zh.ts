@@ -33,7 +33,7 @@ export const panels: PanelWords = {
     attachment: '固定',
     attachmentHelp: '被固定的轮廓长度，及其占全部轮廓的比例',
     computed: '计算用时',
-    teeth: (placed, min, max) => `${placed} 个齿，咬入 ${min} 至 ${max} mm`,
+    teeth: (placed, bites) => `${placed} 个齿，咬入 ${bites} mm`,
   },
   plane: {
     heading: '从侧面看支撑',
