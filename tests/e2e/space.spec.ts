@@ -49,6 +49,50 @@ test('a part is chosen, dragged and laid on a face in the picture', async ({ pag
   await expect(row(page)).toHaveCount(0);
 });
 
+/** What the page tells the graphics card, counted from now on. */
+interface Told {
+  /** Calls that draw, and frames that have any. */
+  draws: number;
+  /** Calls that hand over vertices, colours or pictures. */
+  uploads: number;
+}
+
+/** Counts what goes to the graphics card. */
+function countGraphics(): void {
+  const told: Told = { draws: 0, uploads: 0 };
+  Object.assign(window, { told });
+  const count = (kind: keyof Told, names: readonly string[]): void => {
+    const methods = WebGL2RenderingContext.prototype as unknown as Record<string, (...all: unknown[]) => unknown>;
+    for (const name of names) {
+      const method = methods[name];
+      methods[name] = function (...all) {
+        told[kind]++;
+        return method?.apply(this, all);
+      };
+    }
+  };
+  count('draws', ['drawElements', 'drawElementsInstanced', 'drawArrays', 'drawArraysInstanced']);
+  count('uploads', ['bufferData', 'bufferSubData', 'texImage2D', 'texSubImage2D']);
+}
+
+test('a move of the camera hands nothing over and draws each batch of layers once', async ({ page }) => {
+  await page.addInitScript(countGraphics);
+  await ready(page);
+  await stepTab(page, 'Preview').click();
+  await expect(page.getByRole('slider', { name: 'Move' })).toBeVisible();
+  const still = await settled(page);
+  const told = (): Promise<Told> => page.evaluate(() => (window as unknown as { told: Told }).told);
+  const before = await told();
+  await picture(page).focus();
+  await page.keyboard.press('ArrowLeft');
+  await expect.poll(async () => (await told()).draws).toBeGreaterThan(before.draws);
+  const after = await told();
+  expect(after.uploads).toBe(before.uploads);
+  // 240 layers are ten batches; plate, grids, borders and arrows are a dozen more; two frames at the most.
+  expect(after.draws - before.draws).toBeLessThanOrEqual(2 * 22);
+  expect((await settled(page)).equals(still)).toBe(false);
+});
+
 test('the beads in space: layers, moves, colours, roles, flat view', async ({ page }) => {
   await ready(page);
   await sliceButton(page).click();

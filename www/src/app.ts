@@ -3,10 +3,10 @@ import { onLanguage, speak, spoken } from './i18n/text.ts';
 import { PrintSession } from './printer/print-session.ts';
 import { problemOf, Session } from './session.ts';
 import { Pool } from './slicer/pool.ts';
-import { compileEngine, pageLanes, type ViewLane, viewLane, workerCount } from './slicer/threads.ts';
+import { compileEngine, pageLanes, viewLane, workerCount } from './slicer/threads.ts';
 import { type State, Store } from './state.ts';
 import type { FootholdApp } from './ui/foothold-app.ts';
-import { painter } from './view/painter.ts';
+import { type Painter, painter } from './view/painter.ts';
 
 export class App {
   readonly store = new Store();
@@ -16,7 +16,7 @@ export class App {
   readonly #printing: PrintSession;
   readonly #end = new AbortController();
   #pool: Pool | undefined;
-  #view: ViewLane | undefined;
+  #painter: Painter | undefined;
 
   /** `root` carries language and colours; `begin` is where the state differs from that of a first visit. */
   constructor(element: FootholdApp, root: HTMLElement, begin: Partial<State>) {
@@ -40,18 +40,18 @@ export class App {
     this.#end.abort();
     this.#printing.close();
     this.#pool?.close();
-    this.#view?.close();
+    this.#painter?.close();
   }
 
   async #start(compiled: Promise<WebAssembly.Module>): Promise<Session> {
     const module = await compiled;
     this.#end.signal.throwIfAborted();
     this.#pool = new Pool(pageLanes(module), workerCount(navigator.hardwareConcurrency));
-    this.#view = viewLane(module);
     const session = new Session(this.store, this.#pool);
     this.#element.session = session;
-    this.#element.painter = painter(this.#pool, this.#view);
-    this.store.update({ engine: 'ready', roles: await this.#element.painter.roles() });
+    this.#painter = painter(this.#pool, () => viewLane(module));
+    this.#element.painter = this.#painter;
+    this.store.update({ engine: 'ready', roles: await this.#painter.roles() });
     return session;
   }
 

@@ -27,7 +27,7 @@ export function layerOf(gcode: Gcode, layer: number): Uint8Array {
 }
 
 /** The layers from `first` to `last`, without `last`, to be read alone. */
-export function layersOf(gcode: Gcode, first: number, last: number): Uint8Array {
+export function layersOf(gcode: Gcode, first: number, last: number): Uint8Array<ArrayBuffer> {
   const { pieces } = gcode.joined;
   const sources = pieces.filter((_, k) => k % 3 === 0);
   const start = sources.indexOf(first + 1);
@@ -36,7 +36,7 @@ export function layersOf(gcode: Gcode, first: number, last: number): Uint8Array 
   return joined([RELATIVE, ...parts]);
 }
 
-function joined(parts: readonly Uint8Array[]): Uint8Array {
+function joined(parts: readonly Uint8Array[]): Uint8Array<ArrayBuffer> {
   const all = new Uint8Array(parts.reduce((total, part) => total + part.length, 0));
   let at = 0;
   for (const part of parts) {
@@ -46,7 +46,11 @@ function joined(parts: readonly Uint8Array[]): Uint8Array {
   return all;
 }
 
+/** The height stands within so many bytes of a layer's text, unless a long start code comes before it. */
+const HEAD = 4096;
+
 /** A layer's height above the bed, mm, as its text says it; empty when it does not. */
 export function heightOf(layer: Uint8Array): string {
-  return /^;Z:([\d.]+)/m.exec(new TextDecoder().decode(layer))?.[1] ?? '';
+  const found = (text: Uint8Array): string | undefined => /^;Z:([\d.]+)\n/m.exec(new TextDecoder().decode(text))?.[1];
+  return found(layer.subarray(0, HEAD)) ?? found(layer) ?? '';
 }

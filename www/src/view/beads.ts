@@ -76,7 +76,10 @@ interface Batch {
   readonly moves: Moves;
   readonly all: Instances;
   /** What is seen from outside, for devices that are too slow to draw all while the picture moves. */
-  outside?: Instances;
+  outside?: Instances & {
+    /** Positions of these moves among all. */
+    readonly kept: Uint32Array;
+  };
 }
 
 export class Beads {
@@ -126,24 +129,31 @@ export class Beads {
     return { mesh, colours: colour, ends: moves.layers };
   }
 
-  /** Colours anew: one array of indices for each batch, in order. */
-  colour(indices: readonly Uint8Array<ArrayBuffer>[]): void {
-    this.#batches.forEach((batch, k) => {
-      const found = indices[k];
-      if (found === undefined) return;
-      batch.all.colours.array.set(found);
-      batch.all.colours.needsUpdate = true;
-      if (batch.outside !== undefined) this.#drop(batch.outside);
-      delete batch.outside;
-    });
-    this.#show();
+  /** Colours batch `k` anew. */
+  colour(k: number, indices: Uint8Array<ArrayBuffer>): void {
+    const { all, outside } = this.#batches[k] ?? {};
+    if (all === undefined) return;
+    all.colours.array.set(indices);
+    all.colours.needsUpdate = true;
+    if (outside === undefined) return;
+    outside.colours.array.set(picked(indices, 1, outside.kept));
+    outside.colours.needsUpdate = true;
   }
 
-  /** Draws only what is seen from outside, or all again. */
+  /** Draws only what is seen from outside, as far as `thin` has found it, or all again. */
   coarse(on: boolean): void {
     if (on === this.#coarse) return;
     this.#coarse = on;
     this.#show();
+  }
+
+  /** Finds what is seen from outside for one more batch, so that no frame waits for all; whether there was one. */
+  thin(): boolean {
+    const batch = this.#coarse ? this.#batches.find(({ outside }) => outside === undefined) : undefined;
+    if (batch === undefined) return false;
+    batch.outside = this.#outside(batch);
+    this.#show();
+    return true;
   }
 
   /** `inside`: the indices of beads that are not seen from outside. */
@@ -165,36 +175,27 @@ export class Beads {
     for (const batch of this.#batches) {
       const inside = layer - first;
       first += batch.moves.layers.length;
-      batch.all.mesh.visible = !this.#coarse && showUpTo(batch.all, inside, moves);
-      if (this.#coarse) batch.outside ??= this.#outside(batch);
+      const { all, outside } = batch;
+      const isCoarse = this.#coarse && outside !== undefined;
+      all.mesh.visible = !isCoarse && showUpTo(all, inside, moves);
       // Moves are counted among all; a coarse layer is shown whole.
-      if (batch.outside !== undefined) {
-        batch.outside.mesh.visible = this.#coarse && showUpTo(batch.outside, inside, Number.POSITIVE_INFINITY);
+      if (outside !== undefined) {
+        outside.mesh.visible = isCoarse && showUpTo(outside, inside, Number.POSITIVE_INFINITY);
       }
     }
   }
 
-  #outside({ moves, all }: Batch): Instances {
+  #outside({ moves, all }: Batch): NonNullable<Batch['outside']> {
     const colours = all.colours.array as Uint8Array<ArrayBuffer>;
     const kept = outsideOf(moves, this.#inside);
-    const pick = (from: Float32Array, width: number): Float32Array<ArrayBuffer> => {
-      const to = new Float32Array(kept.length * width);
-      kept.forEach((move, k) => {
-        to.set(from.subarray(move * width, (move + 1) * width), k * width);
-      });
-      return to;
-    };
     let at = 0;
     const layers = moves.layers.map((end) => {
       while (at < kept.length && (kept[at] ?? 0) < end) at++;
       return at;
     });
-    const some = { ...moves, layers, ends: pick(moves.ends, 6), sizes: pick(moves.sizes, 2) };
+    const some = { ...moves, layers, ends: picked(moves.ends, 6, kept), sizes: picked(moves.sizes, 2, kept) };
     const speeds = new Float32Array(kept.length);
-    return this.#instances(
-      { ...some, speeds },
-      Uint8Array.from(kept, (move) => colours[move] ?? 0),
-    );
+    return { ...this.#instances({ ...some, speeds }, picked(colours, 1, kept)), kept };
   }
 
   clear(): void {
@@ -222,9 +223,21 @@ function showUpTo({ mesh, ends }: Instances, inside: number, moves: number): boo
 
 /** Positions of the moves that can be seen from outside. */
 function outsideOf({ roles, sizes }: Moves, inside: ReadonlySet<number>): Uint32Array {
-  const kept: number[] = [];
-  roles.forEach((role, k) => {
-    if ((sizes[2 * k] ?? 0) > 0 && !inside.has(role)) kept.push(k);
-  });
-  return Uint32Array.from(kept);
+  const isInside = Uint8Array.from({ length: 256 }, (_, role) => (inside.has(role) ? 1 : 0));
+  const kept = new Uint32Array(roles.length);
+  let count = 0;
+  for (let k = 0; k < roles.length; k++) {
+    if ((sizes[2 * k] ?? 0) > 0 && isInside[roles[k] ?? 0] === 0) kept[count++] = k;
+  }
+  return kept.slice(0, count);
+}
+
+/** The entries of `kept`, `width` numbers each. */
+function picked<A extends Float32Array | Uint8Array>(from: A, width: number, kept: Uint32Array): A {
+  const to = from.slice(0, kept.length * width) as A;
+  for (let k = 0, at = 0; k < kept.length; k++) {
+    const start = (kept[k] ?? 0) * width;
+    for (let i = 0; i < width; i++) to[at++] = from[start + i] ?? 0;
+  }
+  return to;
 }

@@ -20,20 +20,36 @@ const STEPS = 240;
 /** Colours of scales from low to high: they differ in lightness too, for those who tell few colours apart. */
 const SCALE = ['#2c3e8f', '#2a78b5', '#27a39a', '#7dbb5b', '#e6c229', '#e8743b', '#b5202e'];
 
+type Quantity = Exclude<ColourBy, 'role' | 'tool' | 'fan'>;
+
+/** Ends of what was looked at once: moves do not change. */
+const ends = new WeakMap<Moves, Partial<Record<Quantity, readonly [number, number]>>>();
+
 /** Low and high end of a quantity over all beads, mm/s, mm, mm3/s or per cent; undefined for what is no quantity. */
 export function extent(by: ColourBy, batches: readonly Moves[]): readonly [number, number] | undefined {
   if (by === 'role' || by === 'tool') return undefined;
   if (by === 'fan') return [0, 100];
-  let [low, high] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
-  for (const moves of batches) {
-    for (let k = 0; k < moves.speeds.length; k++) {
-      if (!isBead(moves, k)) continue;
-      const value = quantity(by, moves, k);
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
-  }
+  const all = batches.map((moves) => endsOf(by, moves));
+  const [low, high] = [Math.min(...all.map(([it]) => it)), Math.max(...all.map(([, it]) => it))];
   return low > high ? [0, 0] : [low, high];
+}
+
+function endsOf(by: Quantity, moves: Moves): readonly [number, number] {
+  const known = ends.get(moves) ?? {};
+  ends.set(moves, known);
+  known[by] ??= measured(by, moves);
+  return known[by];
+}
+
+function measured(by: Quantity, moves: Moves): readonly [number, number] {
+  let [low, high] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
+  for (let k = 0; k < moves.speeds.length; k++) {
+    if (!isBead(moves, k)) continue;
+    const value = quantity(by, moves, k);
+    if (value < low) low = value;
+    if (value > high) high = value;
+  }
+  return [low, high];
 }
 
 /** The index into the palette for each move. */

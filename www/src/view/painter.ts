@@ -37,16 +37,19 @@ export interface Painter {
   roles(): Promise<readonly RoleColour[]>;
   /** The triangles of an open model. */
   shape(model: number): Promise<Shape>;
-  /** The moves of some layers' G-code. */
-  moves(layers: Omit<LayerText, 'marks'>): Promise<Moves>;
+  /** The moves of some layers' G-code, whose text goes over to the lane. */
+  moves(layers: { readonly text: Uint8Array<ArrayBuffer>; readonly settings: string }): Promise<Moves>;
   /** Undefined when the picture has to be asked for again. */
   paintPicture(camera: CameraNumbers, theme: Theme): Promise<ImageBitmap | undefined>;
+  /** Ends the view lane; nothing is painted any more. */
+  close(): void;
 }
 
 /** `start` makes a view lane, and another one when that broke. */
 export function painter(pool: Pool, start: () => ViewLane): Painter {
   let lane = start();
   let lanes = 1;
+  let closed = false;
   const call = async <R extends ViewRequest>(
     request: R,
     transfer?: Transferable[],
@@ -55,7 +58,7 @@ export function painter(pool: Pool, start: () => ViewLane): Painter {
     try {
       return await asked.call(request, transfer);
     } catch (error) {
-      if (isBroken(error) && asked === lane) {
+      if (isBroken(error) && asked === lane && !closed) {
         lane = start();
         lanes++;
       }
@@ -72,8 +75,12 @@ export function painter(pool: Pool, start: () => ViewLane): Painter {
     picture: (side, standing) => pool.picture(side, standing),
     roles: async () => JSON.parse((await call({ kind: 'roles' })).roles) as readonly RoleColour[],
     shape: (model) => pool.shape(model),
-    moves: ({ text, settings }) => call({ kind: 'moves', text, settings }),
+    moves: ({ text, settings }) => call({ kind: 'moves', text, settings }, [text.buffer]),
     paintPicture: (camera, theme) => pool.paint(camera, theme),
+    close: () => {
+      closed = true;
+      lane.close();
+    },
   };
 }
 

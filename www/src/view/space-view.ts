@@ -15,6 +15,8 @@ import type { Stage } from './stage.ts';
 
 /** Layers whose G-code is read at a time. */
 const BATCH_LAYERS = 24;
+/** Work on the picture at a time, ms; the rest of a frame is the browser's. */
+const FRAME = 8;
 /** Pixels that a key press turns the picture. */
 const KEY_TURN = 24;
 const KEY_ZOOM = 1.25;
@@ -265,8 +267,7 @@ export class SpaceView extends Element {
     try {
       const total = result.gcode.layers.length;
       for (let first = 0; first < total && this.#told.result === result; first += BATCH_LAYERS) {
-        const text = layersOf(result.gcode, first, Math.min(first + BATCH_LAYERS, total));
-        const moves = await this.#moves(text, result.settings);
+        const moves = await this.#moves(result, first, Math.min(first + BATCH_LAYERS, total));
         if (moves === undefined || this.#told.result !== result) break;
         this.#batches.push(moves);
         stage.addBeads(moves, indices(this.colourBy, moves, this.#range()));
@@ -282,10 +283,10 @@ export class SpaceView extends Element {
   }
 
   /** The moves of some layers; a view lane that breaks is replaced. */
-  async #moves(text: Uint8Array, settings: string): Promise<Moves | undefined> {
+  async #moves({ gcode, settings }: Result, first: number, last: number): Promise<Moves | undefined> {
     for (let tries = 1; ; tries++) {
       try {
-        return await this.painter?.moves({ text, settings });
+        return await this.painter?.moves({ text: layersOf(gcode, first, last), settings });
       } catch (error) {
         if (!isBroken(error) || tries === MOST_TRIES) throw error;
       }
@@ -305,10 +306,22 @@ export class SpaceView extends Element {
     const colours = `${this.colourBy} ${this.#reading}`;
     if (this.#told.colours === colours) return;
     this.#told.colours = colours;
-    const range = this.#range();
-    stage.colourBeads(this.#batches.map((moves) => indices(this.colourBy, moves, range)));
-    this.tell('range', range);
+    void this.#recolour(stage, colours);
+    this.tell('range', this.#range());
     this.tell('layer-moves', this.#layerMoves());
+  }
+
+  /** Colours all batches, as many in a frame as do not hold up the page. */
+  async #recolour(stage: Stage, colours: string): Promise<void> {
+    const [by, range] = [this.colourBy, this.#range()];
+    let began = performance.now();
+    for (const [k, moves] of [...this.#batches].entries()) {
+      stage.colourBeads(k, indices(by, moves, range));
+      if (performance.now() - began < FRAME) continue;
+      await new Promise(requestAnimationFrame);
+      if (this.#told.colours !== colours) return;
+      began = performance.now();
+    }
   }
 
   /** Moves in each layer. */

@@ -19,6 +19,7 @@ import {
   Plane,
   Raycaster,
   Scene,
+  Sphere,
   Vector2,
   Vector3,
   WebGLRenderer,
@@ -98,6 +99,7 @@ export class Stage {
   }
 
   look(orbit: Orbit): void {
+    if (orbit === this.#orbit) return;
     this.#orbit = orbit;
     this.#camera.position.set(...eyeOf(orbit));
     this.#camera.near = Math.max(orbit.distance / 200, 0.1);
@@ -126,7 +128,8 @@ export class Stage {
     geometry.setAttribute('position', new BufferAttribute(positions, 3));
     geometry.setIndex(new BufferAttribute(indices, 1));
     geometry.computeBoundingBox();
-    geometry.computeBoundingSphere();
+    // The sphere around the box is large enough to tell what is out of sight, and needs no look at the vertices.
+    geometry.boundingSphere = (geometry.boundingBox ?? new Box3()).getBoundingSphere(new Sphere());
     this.#shapes.set(model, geometry);
   }
 
@@ -193,8 +196,9 @@ export class Stage {
     this.redraw();
   }
 
-  colourBeads(indices: readonly Uint8Array<ArrayBuffer>[]): void {
-    this.#beads.colour(indices);
+  /** Colours the moves of the k-th `addBeads` anew. */
+  colourBeads(k: number, indices: Uint8Array<ArrayBuffer>): void {
+    this.#beads.colour(k, indices);
     this.redraw();
   }
 
@@ -269,6 +273,7 @@ export class Stage {
     requestAnimationFrame(() => {
       this.#waiting = false;
       if (this.#orbit !== undefined) this.#renderer.render(this.#scene, this.#camera);
+      if (this.#beads.thin()) this.redraw();
     });
   }
 
