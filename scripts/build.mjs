@@ -1,7 +1,7 @@
 // Builds everything that can be served or run: `npm run build`. Installs what is missing first.
 //
 //   Rust -> schema/*.json -> TypeScript types
-//   Rust -> wasm -> wasm-bindgen -> wasm-opt -> www/src/generated/engine and files
+//   Rust -> wasm -> wasm-bindgen -> wasm-opt -> www/src/generated/engine, files and link
 //   www, bin -> dist/page (static files, any sub-path), dist/element (<foothold-slicer> for other sites),
 //               dist/node (what bin/foothold.mjs runs, and the package in Node), dist/types (the package's types)
 //
@@ -10,7 +10,7 @@ import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } 
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { gzipSync } from 'node:zlib';
-import { at, engine, generated, schema, wasmTarget } from './places.mjs';
+import { at, generated, schema, wasmTarget } from './places.mjs';
 import { run, runPackage } from './run.mjs';
 import { npmPackages, wasmBindgen, wasmTargetInstalled } from './setup.mjs';
 import { step } from './step.mjs';
@@ -27,8 +27,7 @@ export async function build() {
   const bindgen = await wasmBindgen();
   await schemas();
   await types();
-  await wasm(bindgen);
-  await files(bindgen);
+  for (const module of modules) await bound(bindgen, module);
   await sample();
   await page();
   await element();
@@ -63,44 +62,55 @@ function types() {
   });
 }
 
-function wasm(bindgen) {
-  const outputs = ['foothold.js', 'foothold.d.ts', 'foothold_bg.wasm'].map((it) => `www/src/generated/engine/${it}`);
-  return step('engine', { inputs: [...rust, 'scripts/build.mjs'], outputs, variant: profile }, async () => {
-    await bound(bindgen, 'foothold', engine);
+/** The wasm modules: where each is written, how it is called there, and what cargo builds for it. */
+const modules = [
+  { folder: 'engine', name: 'foothold', cargo: ['-p', 'foothold'], crate: 'foothold', inputs: rust },
+  {
+    // For files of other programs.
+    folder: 'files',
+    name: 'foothold_files',
+    cargo: ['-p', 'foothold-files'],
+    crate: 'foothold_files',
+    inputs: ['crates', 'schema', 'Cargo.toml', 'Cargo.lock', 'rust-toolchain.toml', '.cargo'],
+  },
+  {
+    // The serial protocol.
+    folder: 'link',
+    name: 'foothold_link',
+    // In a folder of its own: cargo calls both builds of the crate by the same name.
+    cargo: ['-p', 'foothold', '--no-default-features', '--features', 'link', '--target-dir', targetFolder('link')],
+    target: targetFolder('link'),
+    crate: 'foothold',
+    inputs: ['src/lib.rs', 'src/printer', 'src/wasm', 'Cargo.toml', 'Cargo.lock', 'rust-toolchain.toml', '.cargo'],
+  },
+];
+
+/** Builds a module as wasm, with JavaScript around it, into an empty folder. */
+function bound(bindgen, { folder, name, cargo, crate, inputs, target = targetFolder() }) {
+  const files = [`${name}.js`, `${name}.d.ts`, `${name}_bg.wasm`];
+  const outputs = files.map((it) => `www/src/generated/${folder}/${it}`);
+  return step(folder, { inputs: [...inputs, 'scripts/build.mjs'], outputs, variant: profile }, async () => {
+    await run('cargo', ['build', '--locked', '--profile', profile, '--target', wasmTarget, '--lib', ...cargo]);
+    const raw = path.join(target, wasmTarget, profile, `${crate}.wasm`);
+    const out = path.join(generated, folder);
+    rmSync(out, { recursive: true, force: true });
+    await run(path.join(bindgen, 'wasm-bindgen'), [raw, '--target', 'web', '--out-dir', out, '--out-name', name]);
+    if (profile === 'release') await optimise(name, path.join(out, `${name}_bg.wasm`));
   });
 }
 
-/** The module for files of other programs. */
-function files(bindgen) {
-  const folder = path.join(generated, 'files');
-  const outputs = ['foothold_files.js', 'foothold_files.d.ts', 'foothold_files_bg.wasm'];
-  const inputs = ['crates', 'schema', 'Cargo.toml', 'Cargo.lock', 'rust-toolchain.toml', '.cargo', 'scripts/build.mjs'];
-  const named = outputs.map((it) => `www/src/generated/files/${it}`);
-  return step('files', { inputs, outputs: named, variant: profile }, () => bound(bindgen, 'foothold-files', folder));
+function targetFolder(...parts) {
+  return path.join(process.env.CARGO_TARGET_DIR ?? at('target'), ...parts);
 }
 
-/** Builds a package as wasm, with JavaScript around it, into an empty folder. */
-async function bound(bindgen, name, folder) {
-  await run('cargo', ['build', '--locked', '--profile', profile, '--target', wasmTarget, '--lib', '-p', name]);
-  const file = name.replace('-', '_');
-  const raw = path.join(targetFolder(), wasmTarget, profile, `${file}.wasm`);
-  rmSync(folder, { recursive: true, force: true });
-  await run(path.join(bindgen, 'wasm-bindgen'), [raw, '--target', 'web', '--out-dir', folder, '--out-name', file]);
-  if (profile === 'release') await optimise(path.join(folder, `${file}_bg.wasm`));
-}
-
-function targetFolder() {
-  return process.env.CARGO_TARGET_DIR ?? at('target');
-}
-
-async function optimise(file) {
+async function optimise(name, file) {
   const features = ['simd', 'bulk-memory', 'nontrapping-float-to-int', 'sign-ext', 'mutable-globals'];
   const before = statSync(file).size;
   await runPackage('binaryen/bin/wasm-opt', ['-O3', ...features.map((it) => `--enable-${it}`), file, '-o', file]);
   const bytes = readFileSync(file);
   const kib = (n) => `${(n / 1024).toFixed(0)} KiB`;
   console.log(
-    `build: engine ${kib(before)} -> ${kib(bytes.length)}, gzip'd ${kib(gzipSync(bytes, { level: 9 }).length)}`,
+    `build: ${name} ${kib(before)} -> ${kib(bytes.length)}, gzip'd ${kib(gzipSync(bytes, { level: 9 }).length)}`,
   );
 }
 

@@ -12,7 +12,6 @@ export const cache =
   process.env.FOOTHOLD_CACHE ?? path.join(process.env.XDG_CACHE_HOME ?? path.join(homedir(), '.cache'), 'foothold');
 
 export const wasmTarget = 'wasm32-unknown-unknown';
-/** The engine as the page and Node load it: JavaScript glue, types and the optimised wasm. */
-export const engine = at('www', 'src', 'generated', 'engine');
+/** What the build writes for the page: types, and the wasm modules with their JavaScript. */
 export const generated = at('www', 'src', 'generated');
 export const schema = at('schema');

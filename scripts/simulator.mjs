@@ -23,10 +23,11 @@ export async function simulator() {
   await wasmTargetInstalled();
   const bindgen = await wasmBindgen();
   await step('simulator', { inputs, outputs: ['dist/simulator/serial.js'] }, async () => {
-    const profile = ['--profile', 'quick', '--target', wasmTarget];
+    // As the tests in Node are built, of which most is used again.
+    const profile = ['--features', 'link', '--target', wasmTarget];
     await run('cargo', ['build', '--locked', ...profile, '--example', 'printer_sim']);
     const target = process.env.CARGO_TARGET_DIR ?? at('target');
-    const raw = path.join(target, wasmTarget, 'quick', 'examples', 'printer_sim.wasm');
+    const raw = path.join(target, wasmTarget, 'debug', 'examples', 'printer_sim.wasm');
     const out = at('dist', 'simulator');
     mkdirSync(out, { recursive: true });
     const shape = ['--target', 'no-modules', '--no-typescript', '--out-dir', out, '--out-name', 'printer_sim'];

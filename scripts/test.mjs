@@ -21,7 +21,7 @@ const groups = {
   check: [
     ['cargo fmt', () => run('cargo', ['fmt', '--check'])],
     ['clippy', () => clippy('--all-targets', '--features', 'schema')],
-    ['clippy wasm32', () => clippy('--lib', '--target', wasmTarget)],
+    ['clippy wasm32', () => clippy('--lib', '--target', wasmTarget, '--features', 'link')],
     ['build', build],
     ['types: page', () => typeCheck('www/tsconfig.json')],
     ['types: workers', () => typeCheck('www/tsconfig.worker.json')],
@@ -51,7 +51,7 @@ const typeCheck = (project) => runPackage('typescript/bin/tsc', ['-p', project])
 
 function wasmTests() {
   const runner = 'CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER';
-  return run('cargo', ['test', '--locked', '--target', wasmTarget, '--test', 'web'], {
+  return run('cargo', ['test', '--locked', '--target', wasmTarget, '--features', 'link', '--test', 'web'], {
     env: { ...env, [runner]: `${bindgen}/wasm-bindgen-test-runner` },
   });
 }

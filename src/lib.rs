@@ -20,20 +20,35 @@
 //! on a grid of [`polygon::GRID_MM`]. Equal input gives equal bytes, natively and as wasm: no clock,
 //! no randomness, no hash-map order, no platform sine ([`polygon::trig`]).
 
-pub mod adhesion;
-pub mod gcode;
-pub mod mesh;
-pub mod options;
-pub mod orientation;
-pub mod pipeline;
-pub mod polygon;
 pub mod printer;
-pub mod region;
-pub mod settings;
-pub mod slice;
-mod sort;
-pub mod support;
-pub mod toolpath;
-pub mod view;
 #[cfg(target_arch = "wasm32")]
 pub mod wasm;
+
+#[cfg(feature = "slicer")]
+pub mod adhesion;
+#[cfg(feature = "slicer")]
+pub mod gcode;
+#[cfg(feature = "slicer")]
+pub mod mesh;
+#[cfg(feature = "slicer")]
+pub mod options;
+#[cfg(feature = "slicer")]
+pub mod orientation;
+#[cfg(feature = "slicer")]
+pub mod pipeline;
+#[cfg(feature = "slicer")]
+pub mod polygon;
+#[cfg(feature = "slicer")]
+pub mod region;
+#[cfg(feature = "slicer")]
+pub mod settings;
+#[cfg(feature = "slicer")]
+pub mod slice;
+#[cfg(feature = "slicer")]
+mod sort;
+#[cfg(feature = "slicer")]
+pub mod support;
+#[cfg(feature = "slicer")]
+pub mod toolpath;
+#[cfg(feature = "slicer")]
+pub mod view;

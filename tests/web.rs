@@ -6,8 +6,10 @@ mod common;
 
 use foothold::mesh::stl::write_binary;
 use foothold::wasm::{
-    Chunk, Job, Model, ModelReader, SharedMesh, default_settings, resolve_settings, slice_share,
+    Chunk, Job, Model, ModelReader, Outline, Printer, SharedMesh, default_settings, resolve_settings,
+    slice_share,
 };
+use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_test::wasm_bindgen_test;
 
@@ -130,4 +132,39 @@ fn errors_have_their_names_and_causes() {
         Job::new(vec![model(&tall, 4096)], vec!["tall".to_owned()], &default_settings(), &[], vec![]);
     let Err(tall) = placed else { panic!("accepted") };
     assert_eq!(error_name(tall).0, "FitError");
+}
+
+/// A function that gives the text in pieces of five bytes.
+fn pieces(text: &str) -> js_sys::Function {
+    let bytes = text.as_bytes().to_vec();
+    let mut at = 0;
+    let next = Closure::<dyn FnMut() -> JsValue>::new(move || {
+        let piece = &bytes[at..bytes.len().min(at + 5)];
+        at += piece.len();
+        if piece.is_empty() { JsValue::UNDEFINED } else { js_sys::Uint8Array::from(piece).into() }
+    });
+    next.into_js_value().unchecked_into()
+}
+
+#[wasm_bindgen_test]
+fn the_link_writes_numbered_lines_and_refuses_by_name() {
+    let mut printer = Printer::new(None).expect("a link");
+    let early = printer.start(0.0, pieces("G28\n"), 0.0).expect_err("started without a printer");
+    assert_eq!(error_name(early).0, "CommandError");
+    printer.connect(0.0).expect("not connected yet");
+    let sent: Vec<u8> = std::iter::from_fn(|| printer.poll_transmit()).flatten().collect();
+    // XOR of "N0 M110 N0" is 125.
+    assert_eq!(sent, b"\nN0 M110 N0*125\n");
+    assert!(printer.poll_timeout().is_some_and(|at| at > 0.0));
+    printer.handle_closed(1.0);
+    let events = printer.poll_events().expect("JSON").expect("a closed port is told");
+    assert!(serde_json::from_str::<serde_json::Value>(&events).is_ok_and(|it| it.is_array()), "{events}");
+}
+
+#[wasm_bindgen_test]
+fn an_outline_tells_where_layers_begin() {
+    let text = "M104 S210\nG28\n;LAYER_CHANGE\n;Z:0.2\nG1 Z0.2\n;LAYER_CHANGE\n;Z:0.4\nG1 Z0.4\n";
+    let outline = Outline::new(pieces(text)).json().expect("JSON");
+    let outline: serde_json::Value = serde_json::from_str(&outline).expect("JSON");
+    assert_eq!(outline["layers"].as_array().map(Vec::len), Some(2), "{outline}");
 }

@@ -1,32 +1,13 @@
-//! Errors and settings between Rust and JavaScript.
-
-use std::fmt::Display;
+//! Errors of the slicer, settings and matrices between Rust and JavaScript.
 
 use glam::DMat4;
-use js_sys::Error;
 use wasm_bindgen::prelude::*;
 
+use super::error::{Thrown, thrown, usage_error};
 use crate::mesh::StlError;
 use crate::orientation::OrientationError;
 use crate::pipeline::{FitError, JobError};
-use crate::printer::CommandError;
 use crate::settings::{OwnSettings, Settings, SettingsError};
-
-/// A JavaScript error on its way out.
-#[derive(Debug)]
-pub struct Thrown(Error);
-
-impl From<Thrown> for JsValue {
-    fn from(thrown: Thrown) -> JsValue {
-        thrown.0.into()
-    }
-}
-
-fn thrown(name: &str, cause: impl Display) -> Thrown {
-    let error = Error::new(&cause.to_string());
-    error.set_name(name);
-    Thrown(error)
-}
 
 /// A file that cannot be read or used.
 pub(super) fn model_error(cause: StlError) -> Thrown {
@@ -36,16 +17,6 @@ pub(super) fn model_error(cause: StlError) -> Thrown {
 /// Settings that cannot be used.
 pub(super) fn settings_error(cause: SettingsError) -> Thrown {
     thrown("SettingsError", cause)
-}
-
-/// A wrong argument from the page or the command line.
-pub(super) fn usage_error(cause: impl Display) -> Thrown {
-    thrown("UsageError", cause)
-}
-
-/// A fault of this program.
-pub(super) fn internal_error(cause: impl Display) -> Thrown {
-    thrown("InternalError", cause)
 }
 
 /// A model that no orientation can be proposed for.
@@ -67,11 +38,6 @@ pub(super) fn job_error(cause: JobError) -> Thrown {
         JobError::LayerMissing { .. } => "InternalError",
     };
     thrown(name, cause)
-}
-
-/// A command that the printer's state does not allow.
-pub(super) fn command_error(cause: CommandError) -> Thrown {
-    thrown("CommandError", cause)
 }
 
 /// Parts that do not fit the printer.

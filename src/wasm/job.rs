@@ -2,9 +2,8 @@
 
 use wasm_bindgen::prelude::*;
 
-use super::convert::{
-    Thrown, internal_error, job_error, matrices_from, now, own_from, settings_from, usage_error,
-};
+use super::convert::{job_error, matrices_from, now, own_from, settings_from};
+use super::error::{Thrown, internal_error, usage_error};
 use super::model::Model;
 use super::study;
 use crate::gcode::Piece;

@@ -1,59 +1,48 @@
-//! What the engine exports to JavaScript; compiled for wasm32 only. Each export converts and calls.
+//! What is exported to JavaScript; compiled for wasm32 only. Each export converts and calls.
 //!
-//! Errors are thrown as `Error` objects with a stable `name` (`convert.rs`). After a panic the
-//! instance must not be used again.
+//! There are two modules: the slicer (feature `slicer`) and the serial protocol (feature `link`). Errors
+//! are thrown as `Error` objects with a stable `name` (`error.rs`). After a panic the instance must not
+//! be used again.
 
+#[cfg(feature = "slicer")]
 mod canvas;
+#[cfg(feature = "slicer")]
 mod convert;
+mod error;
+#[cfg(feature = "slicer")]
 mod job;
+#[cfg(feature = "slicer")]
 mod model;
+#[cfg(feature = "slicer")]
 mod moves;
+#[cfg(feature = "link")]
 mod printer;
+#[cfg(feature = "slicer")]
 mod scene;
+#[cfg(feature = "slicer")]
+mod settings;
+#[cfg(feature = "slicer")]
 mod study;
 
-pub use convert::Thrown;
+pub use error::Thrown;
+#[cfg(feature = "slicer")]
 pub use job::{Chunk, Job, JobResult, slice_share};
+#[cfg(feature = "slicer")]
 pub use model::{Model, ModelReader, SharedMesh, arrange_parts, parts_picture};
+#[cfg(feature = "slicer")]
 pub use moves::{Moves, role_colours};
+#[cfg(feature = "link")]
 pub use printer::{Outline, Printer};
+#[cfg(feature = "slicer")]
 pub use scene::Scene;
+#[cfg(feature = "slicer")]
+pub use settings::{default_settings, resolve_own, resolve_settings, version};
+#[cfg(feature = "slicer")]
 pub use study::orientation_lesson;
 
 use wasm_bindgen::prelude::*;
 
-use crate::settings::{OwnSettings, Settings};
-use convert::settings_error;
-
 #[wasm_bindgen(start)]
 fn start() {
     console_error_panic_hook::set_once();
-}
-
-/// Version of the engine.
-#[wasm_bindgen]
-pub fn version() -> String {
-    env!("CARGO_PKG_VERSION").to_owned()
-}
-
-/// All settings with their defaults, as JSON.
-#[wasm_bindgen]
-pub fn default_settings() -> String {
-    Settings::default().to_json()
-}
-
-/// Defaults, changed by JSON texts in turn and then by assignments `path=value`; as JSON. Throws a
-/// `SettingsError` that names the setting's path.
-#[wasm_bindgen]
-pub fn resolve_settings(files: Vec<String>, sets: Vec<String>) -> Result<String, Thrown> {
-    let settings = Settings::resolve(files.iter().map(String::as_str), sets.iter().map(String::as_str));
-    Ok(settings.map_err(settings_error)?.to_json())
-}
-
-/// A model's own settings as JSON, from texts and `path=value` words like `resolve_settings`, without
-/// those of the plate. Throws a `SettingsError`.
-#[wasm_bindgen]
-pub fn resolve_own(files: Vec<String>, sets: Vec<String>) -> Result<String, Thrown> {
-    let own = OwnSettings::resolve(files.iter().map(String::as_str), sets.iter().map(String::as_str));
-    Ok(own.map_err(settings_error)?.to_json())
 }

@@ -5,9 +5,10 @@ use wasm_bindgen::prelude::*;
 
 use super::canvas::MODEL_TINT;
 use super::convert::{
-    Thrown, fit_error, internal_error, matrices_from, matrix_from, model_error, now, orientation_error,
-    own_from, settings_error, settings_from, usage_error,
+    fit_error, matrices_from, matrix_from, model_error, now, orientation_error, own_from, settings_error,
+    settings_from,
 };
+use super::error::{Thrown, internal_error, usage_error};
 use super::scene::Scene;
 use crate::mesh::transform::rotation_to_up;
 use crate::mesh::{Box3, Edit, LoadedModel, Mesh, StlReader, bounds_under, edited};

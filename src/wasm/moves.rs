@@ -2,7 +2,8 @@
 
 use wasm_bindgen::prelude::*;
 
-use super::convert::{Thrown, internal_error, settings_from};
+use super::convert::settings_from;
+use super::error::{Thrown, internal_error};
 use crate::gcode::filament_area;
 use crate::region::Role;
 use crate::view;

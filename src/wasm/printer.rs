@@ -5,8 +5,8 @@ use std::time::Duration;
 use js_sys::{Function, Uint8Array};
 use wasm_bindgen::prelude::*;
 
-use super::convert::{Thrown, command_error, internal_error, usage_error};
-use crate::printer::{self, JobLines, JobStart, PrinterOptions};
+use super::error::{Thrown, internal_error, thrown, usage_error};
+use crate::printer::{self, CommandError, JobLines, JobStart, PrinterOptions};
 
 /// The host's side of a serial link; the contract is that of the engine's type of this name.
 #[wasm_bindgen]
@@ -169,4 +169,9 @@ fn lines(pull: Function) -> JobLines {
         let piece = pull.call0(&JsValue::NULL).ok()?;
         piece.dyn_into::<Uint8Array>().ok().map(|piece| piece.to_vec())
     }))
+}
+
+/// A command that the printer's state does not allow.
+fn command_error(cause: CommandError) -> Thrown {
+    thrown("CommandError", cause)
 }

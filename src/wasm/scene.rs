@@ -4,7 +4,8 @@ use wasm_bindgen::prelude::*;
 use web_sys::CanvasRenderingContext2d;
 
 use super::canvas::{self, View};
-use super::convert::{Thrown, internal_error, settings_from};
+use super::convert::settings_from;
+use super::error::{Thrown, internal_error};
 use crate::adhesion::TeethDrawing;
 use crate::gcode::read;
 use crate::view::base_layer::teeth_items;

@@ -4,7 +4,8 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use wasm_bindgen::prelude::*;
 
-use super::convert::{Thrown, internal_error, job_error, now, usage_error};
+use super::convert::{job_error, now};
+use super::error::{Thrown, internal_error, usage_error};
 use crate::adhesion::Recommendation;
 use crate::orientation::OrientationReport;
 use crate::pipeline::{AdhesionReport, Job};

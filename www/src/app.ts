@@ -28,7 +28,7 @@ export class App {
       element.state = state;
     });
     const compiled = compileEngine();
-    this.#printing = this.#prepareToPrint(compiled);
+    this.#printing = this.#prepareToPrint();
     this.session = this.#start(compiled);
     this.session.catch((error: unknown) => {
       if (!this.#end.signal.aborted) this.store.update({ engine: problemOf(error) });
@@ -56,7 +56,7 @@ export class App {
   }
 
   /** The Print step's session over its part of the state; the layer view follows the print. */
-  #prepareToPrint(compiled: Promise<WebAssembly.Module>): PrintSession {
+  #prepareToPrint(): PrintSession {
     const { store } = this;
     const print = {
       get state() {
@@ -70,7 +70,7 @@ export class App {
         store.update(follows && printed !== layer ? { print, layer: printed } : { print });
       },
     };
-    const printing = new PrintSession(print, compiled);
+    const printing = new PrintSession(print);
     this.#element.printing = printing;
     void printing.start();
     return printing;

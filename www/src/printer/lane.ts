@@ -1,20 +1,23 @@
 // The page's end of the print lane: a worker that has the port, or the same module in the page.
+import wasmUrl from '../generated/link/foothold_link_bg.wasm?url';
+import { compiledOnce } from '../slicer/compile.ts';
 import { startWorker } from '../slicer/start-worker.ts';
 import type { Link } from './link.ts';
 import type { PrintNews, PrintRequest, ToPrintLane } from './messages.ts';
 import type { SerialPortLike } from './port.ts';
 import script from './print.worker.ts?worker&url';
 
+/** Fetches and compiles the serial protocol. */
+const compileLink = compiledOnce(wasmUrl);
+
 export class PrintLane {
-  readonly #module: Promise<WebAssembly.Module>;
   readonly #news: (news: PrintNews) => void;
   #worker: Promise<Worker> | undefined;
   #local: Promise<Link> | undefined;
   #open: Extract<PrintRequest, { kind: 'open' }> | undefined;
   #port: SerialPortLike | undefined;
 
-  constructor(module: Promise<WebAssembly.Module>, news: (news: PrintNews) => void) {
-    this.#module = module;
+  constructor(news: (news: PrintNews) => void) {
     this.#news = news;
   }
 
@@ -32,7 +35,10 @@ export class PrintLane {
       return;
     }
     this.#worker ??= this.#start();
-    void this.#worker.then((worker) => worker.postMessage({ request } satisfies ToPrintLane));
+    void this.#worker.then(
+      (worker) => worker.postMessage({ request } satisfies ToPrintLane),
+      (error: Error) => this.#hear({ kind: 'broken', message: error.message }),
+    );
   }
 
   /** Ends the lane at once; the port closes with it. */
@@ -45,7 +51,7 @@ export class PrintLane {
     const worker = startWorker(script);
     worker.onmessage = ({ data }: MessageEvent<PrintNews>) => this.#hear(data);
     worker.onerror = (event) => this.#hear({ kind: 'broken', message: event.message });
-    worker.postMessage({ start: await this.#module } satisfies ToPrintLane);
+    worker.postMessage({ start: await compileLink() } satisfies ToPrintLane);
     return worker;
   }
 
@@ -67,7 +73,7 @@ export class PrintLane {
   }
 
   async #here(): Promise<Link> {
-    const [{ linkInPage }, module] = await Promise.all([import('./page-link.ts'), this.#module]);
+    const [{ linkInPage }, module] = await Promise.all([import('./page-link.ts'), compileLink()]);
     return linkInPage(
       module,
       () => this.#port,

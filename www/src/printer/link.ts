@@ -1,5 +1,5 @@
 // Drives the engine's Printer: bytes from the port and timers in, bytes to the port and news out.
-import type * as Engine from '../generated/engine/foothold.js';
+import type * as Engine from '../generated/link/foothold_link.js';
 import type { Begin, Journal, PortInfo, PrinterEvent, PrinterState, PrintNews, PrintRequest } from './messages.ts';
 import { type SerialPortLike, Wire } from './port.ts';
 import type { Source } from './text.ts';

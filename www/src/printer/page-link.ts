@@ -1,5 +1,5 @@
 // The print lane in the page itself: loaded only where a worker cannot have the port.
-import * as engine from '../generated/engine/foothold.js';
+import * as engine from '../generated/link/foothold_link.js';
 import { Link } from './link.ts';
 import type { PrintNews } from './messages.ts';
 import type { SerialPortLike } from './port.ts';

@@ -44,9 +44,9 @@ export class PrintSession {
   #parked = false;
   #uploading: AbortController | undefined;
 
-  constructor(store: PrintStore, module: Promise<WebAssembly.Module>) {
+  constructor(store: PrintStore) {
     this.#store = store;
-    this.#lane = new PrintLane(module, (news) => this.#hear(news));
+    this.#lane = new PrintLane((news) => this.#hear(news));
     store.update({ supported: serial() !== undefined });
   }
 

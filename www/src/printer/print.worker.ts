@@ -1,5 +1,5 @@
 // The print lane in a worker: a tab in the background does not starve the printer.
-import * as engine from '../generated/engine/foothold.js';
+import * as engine from '../generated/link/foothold_link.js';
 import { watchPanics } from '../slicer/errors.ts';
 import { Link } from './link.ts';
 import type { PrintNews, ToPrintLane } from './messages.ts';

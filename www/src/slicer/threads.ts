@@ -3,6 +3,7 @@ import wasmUrl from '../generated/engine/foothold_bg.wasm?url';
 import filesUrl from '../generated/files/foothold_files_bg.wasm?url';
 import type { HelperReply, HelperRequest, LeadReply, LeadRequest, ViewReply, ViewRequest } from '../messages.ts';
 import viewScript from '../view/view.worker.ts?worker&url';
+import { compiledOnce } from './compile.ts';
 import helperScript from './helper.worker.ts?worker&url';
 import { type Port, ThreadLane, type ViewLane } from './lane.ts';
 import leadScript from './lead.worker.ts?worker&url';
@@ -18,23 +19,8 @@ export function workerCount(processors: number): number {
   return Math.max(1, Math.min(processors, 4));
 }
 
-let compiled: Promise<WebAssembly.Module> | undefined;
-
-/** Fetches and compiles the engine, once; also from a server that calls wasm by another type. */
-export function compileEngine(): Promise<WebAssembly.Module> {
-  compiled ??= compile();
-  // The next who asks tries again.
-  compiled.catch(() => {
-    compiled = undefined;
-  });
-  return compiled;
-}
-
-async function compile(): Promise<WebAssembly.Module> {
-  const response = await fetch(wasmUrl);
-  if (!response.ok) throw new Error(`the engine could not be loaded: ${response.status}`);
-  return WebAssembly.compile(await response.arrayBuffer());
-}
+/** Fetches and compiles the engine. */
+export const compileEngine = compiledOnce(wasmUrl);
 
 export function pageLanes(module: WebAssembly.Module): LaneMaker {
   return {
