@@ -279,8 +279,8 @@ const OF_PLATE: [&str; 1] = ["support.tool"];
 pub fn is_of_model(path: &str, sequence: Sequence) -> bool {
     let covers =
         |group: &&str| path.strip_prefix(*group).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
-    let by_object = sequence == Sequence::ByObject && OF_MODEL_BY_OBJECT.iter().any(|g| covers(&g));
-    !OF_PLATE.contains(&path) && (by_object || OF_MODEL.iter().any(|g| covers(&g)))
+    let by_object = sequence == Sequence::ByObject && OF_MODEL_BY_OBJECT.iter().any(covers);
+    !OF_PLATE.contains(&path) && (by_object || OF_MODEL.iter().any(covers))
 }
 
 fn from_tree(tree: &Value) -> Result<Settings, SettingsError> {

@@ -47,14 +47,19 @@ test('profiles chosen in the form', () => {
 test('settings files may name profiles', () => {
   const profiles = { printer: 'k1', material: 'pla' };
   const text = JSON.stringify({ profiles, settings: { walls: { count: 4 } } });
-  expect(parseSaved(text)).toEqual({ profiles, settings: { walls: { count: 4 } } });
-  expect(parseSaved('{"walls":{"count":4}}')).toEqual({ profiles: {}, settings: { walls: { count: 4 } } });
+  const settings = { walls: { count: 4 } };
+  expect(parseSaved(text)).toEqual({ profiles, settings, models: {} });
+  expect(parseSaved('{"walls":{"count":4}}')).toEqual({ profiles: {}, settings, models: {} });
+  const models = { cube: { infill: { density: 1 } } };
+  expect(parseSaved(JSON.stringify({ ...settings, models }))).toEqual({ profiles: {}, settings, models });
+  expect(parseSaved(JSON.stringify({ profiles, models }))).toEqual({ profiles, settings: {}, models });
   for (const [text, fault] of [
     ['[]', /JSON object/],
     ['{"profiles":3}', /"profiles" is not/],
     ['{"profiles":{"printers":"k1"}}', /kind "printers"/],
     ['{"profiles":{"printer":1}}', /not named by a word/],
     ['{"profiles":{},"extra":1}', /unknown "extra"/],
+    ['{"models":{"cube":1}}', /model "cube" are not an object/],
   ] as const) {
     expect(() => parseSaved(text)).toThrow(fault);
   }
