@@ -1,24 +1,13 @@
 //! Short layers: how far they are slowed, how the fan answers; accelerations by role; wiping.
 
+mod common;
+
+use common::layers::layer;
 use foothold::gcode::read::{ReadMove, Reader, read};
-use foothold::gcode::{
-    FileNotes, Flavor, GcodeOptions, LayerGcode, LayerInput, Place, assemble, join, layer_gcode,
-};
+use foothold::gcode::{FileNotes, Flavor, GcodeOptions, LayerGcode, Place, assemble, join, layer_gcode};
 use foothold::polygon::{DVec2, dvec2};
 use foothold::region::{Path, Role};
 use proptest::prelude::*;
-
-fn layer(index: u32, paths: &[Path]) -> LayerInput<'_> {
-    LayerInput {
-        index,
-        print_z: 0.2 + 0.2 * f64::from(index),
-        height: 0.2,
-        spiral: None,
-        paths,
-        ways: &[],
-        own: &[],
-    }
-}
 
 fn square(role: Role, side: f64) -> Path {
     let points = vec![dvec2(0.0, 0.0), dvec2(side, 0.0), dvec2(side, side), dvec2(0.0, side)];

@@ -2,6 +2,7 @@
 
 mod common;
 
+use common::layers::layer;
 use common::{cuboid, cylinder, moved, sphere, together, tube};
 use foothold::gcode::read::{ReadMove, Reader, read};
 use foothold::gcode::{
@@ -15,11 +16,6 @@ use foothold::region::{Bead, Path, Role};
 use foothold::settings::Settings;
 use glam::Vec3;
 use proptest::prelude::*;
-
-fn layer(index: u32, paths: &[Path]) -> LayerInput<'_> {
-    let print_z = 0.2 + 0.2 * f64::from(index);
-    LayerInput { index, print_z, height: 0.2, spiral: None, paths, ways: &[], own: &[] }
-}
 
 /// Arcs allowed, nothing slowed down.
 fn with_arcs(tolerance: f64) -> GcodeOptions {

@@ -1,9 +1,11 @@
 //! One layer as text: what it says is what was asked for, and reads back as it was planned.
 
+mod common;
+
+use common::layers::layer;
 use foothold::gcode::read::{ReadMove, Reader};
 use foothold::gcode::{
-    GcodeOptions, LayerInput, Move, Place, RetractionOptions, filament_area, layer_gcode, plan_layer,
-    type_name,
+    GcodeOptions, Move, Place, RetractionOptions, filament_area, layer_gcode, plan_layer, type_name,
 };
 use foothold::polygon::{DVec2, dvec2};
 use foothold::region::{Bead, Path, Role, Width};
@@ -15,18 +17,6 @@ const STEP_MM3: f64 = 2.5e-5;
 /// Cross-section of a bead of this width in a layer of 0.2 mm.
 fn bead_area(width: f64) -> f64 {
     Bead { width, height: 0.2 }.area()
-}
-
-fn layer(index: u32, paths: &[Path]) -> LayerInput<'_> {
-    LayerInput {
-        index,
-        print_z: 0.2 + 0.2 * f64::from(index),
-        height: 0.2,
-        spiral: None,
-        paths,
-        ways: &[],
-        own: &[],
-    }
 }
 
 /// Without slowing down short layers, or blowing more at them.

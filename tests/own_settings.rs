@@ -2,11 +2,11 @@
 
 mod common;
 
+use common::ranges::{file, own, shared};
 use common::{cube, cuboid, moved};
-use foothold::gcode::assemble;
 use foothold::gcode::read::{ReadMove, Reader};
 use foothold::mesh::{Mesh, load, stl::write_binary};
-use foothold::pipeline::{Finished, Job, JobError, NamedModel, RangeResult, Share};
+use foothold::pipeline::{Finished, Job, JobError, NamedModel};
 use foothold::region::Role;
 use foothold::settings::{OwnSettings, Settings};
 use glam::{DMat4, Vec3, dvec3};
@@ -25,35 +25,11 @@ fn prepared(models: &[NamedModel], sets: &[&str]) -> Result<Job, JobError> {
     Ok(job)
 }
 
-fn file(
-    mut job: Job,
-    cuts: &[usize],
-    work: impl Fn(&Job, usize, usize) -> RangeResult,
-) -> (String, Finished) {
-    let results: Vec<RangeResult> = cuts.windows(2).map(|w| work(&job, w[0], w[1])).collect();
-    let mut texts = Vec::new();
-    for result in results {
-        job.add(result.meta);
-        texts.extend(result.texts);
-    }
-    let finished = job.finish(&|| 0.0).expect("all layers are there");
-    (String::from_utf8(assemble(&finished.joined, &texts)).expect("ASCII"), finished)
-}
-
-fn own(job: &Job, first: usize, last: usize) -> RangeResult {
-    job.slice(first, last, &|| 0.0)
-}
-
-fn shared(job: &Job, first: usize, last: usize) -> RangeResult {
-    let bytes = postcard::to_allocvec(&job.share(first, last)).expect("it can be written");
-    let share: Share = postcard::from_bytes(&bytes).expect("it can be read");
-    share.slice(&|| 0.0)
-}
-
 fn sliced(models: &[NamedModel], sets: &[&str]) -> (String, Finished) {
     let job = prepared(models, sets).expect("it fits");
     let count = job.layer_count();
-    file(job, &[0, count], own)
+    let (bytes, finished) = file(job, &[0, count], own);
+    (String::from_utf8(bytes).expect("ASCII"), finished)
 }
 
 /// Beads of the model at each side of the bed's middle along x: they stand in a row of two.
@@ -204,7 +180,8 @@ fn where_models_overlap_nothing_is_printed_twice() {
     let mut job = Job::placed(&models, &[at(100.0), at(110.0)], settings, &|| 0.0).expect("on the bed");
     job.prepare(&|| 0.0).expect("good settings");
     let count = job.layer_count();
-    let (text, _) = file(job, &[0, count], own);
+    let (bytes, _) = file(job, &[0, count], own);
+    let text = String::from_utf8(bytes).expect("ASCII");
     let printed: f64 = sides(&text).iter().map(|beads| volume(beads)).sum();
     assert!((printed / (30.0 * 20.0 * 20.0) - 1.0).abs() < 0.03, "{printed}");
 }

@@ -2,10 +2,10 @@
 
 mod common;
 
+use common::ranges::{file, own, shared};
 use common::{bracket, cylinder, moved, sphere, together, torus};
-use foothold::gcode::assemble;
 use foothold::mesh::{LoadedModel, Mesh, load};
-use foothold::pipeline::{Job, NamedModel, RangeResult, Share};
+use foothold::pipeline::{Job, NamedModel};
 use foothold::settings::Settings;
 use glam::Vec3;
 
@@ -21,39 +21,16 @@ fn job(mesh: &Mesh, sets: &[&str]) -> Job {
     job
 }
 
-/// The file when each of `cuts` (ascending, from 0 to the number of layers) begins a range, each
-/// range worked by `work`.
-fn file(mut job: Job, cuts: &[usize], work: impl Fn(&Job, usize, usize) -> RangeResult) -> Vec<u8> {
-    let results: Vec<RangeResult> = cuts.windows(2).map(|w| work(&job, w[0], w[1])).collect();
-    let mut texts = Vec::new();
-    for result in results {
-        job.add(result.meta);
-        texts.extend(result.texts);
-    }
-    assemble(&job.finish(&|| 0.0).expect("all layers are there").joined, &texts)
-}
-
-fn own(job: &Job, first: usize, last: usize) -> RangeResult {
-    job.slice(first, last, &|| 0.0)
-}
-
-/// As another engine gets it: through bytes.
-fn shared(job: &Job, first: usize, last: usize) -> RangeResult {
-    let bytes = postcard::to_allocvec(&job.share(first, last)).expect("it can be written");
-    let share: Share = postcard::from_bytes(&bytes).expect("it can be read");
-    share.slice(&|| 0.0)
-}
-
 fn assert_same_bytes(mesh: &Mesh, sets: &[&str]) {
     let count = job(mesh, sets).layer_count();
-    let whole = file(job(mesh, sets), &[0, count], own);
+    let (whole, _) = file(job(mesh, sets), &[0, count], own);
     assert!(whole.len() > 10_000);
     let mut cuts: Vec<usize> = (0..count).step_by(7).collect();
     cuts.push(count);
-    assert!(file(job(mesh, sets), &cuts, own) == whole, "ranges differ from the whole");
-    assert!(file(job(mesh, sets), &cuts, shared) == whole, "shares differ from the whole");
+    assert!(file(job(mesh, sets), &cuts, own).0 == whole, "ranges differ from the whole");
+    assert!(file(job(mesh, sets), &cuts, shared).0 == whole, "shares differ from the whole");
     let mixed = |j: &Job, a, b| if a % 2 == 0 { own(j, a, b) } else { shared(j, a, b) };
-    assert!(file(job(mesh, sets), &[0, 1, 2, 3, count - 1, count], mixed) == whole, "a mix differs");
+    assert!(file(job(mesh, sets), &[0, 1, 2, 3, count - 1, count], mixed).0 == whole, "a mix differs");
 }
 
 #[test]
@@ -94,7 +71,7 @@ fn a_raft_lifts_the_part() {
     let lift = raised.specs()[extra].print_z - plain.specs()[0].print_z;
     let raft_top = raised.specs()[extra - 1].print_z;
     assert!((lift - raft_top - 0.2).abs() < 1e-9, "the part hangs adhesion.raft.gap above the raft");
-    let file = file(raised, &[0, extra + 50], own);
+    let (file, _) = file(raised, &[0, extra + 50], own);
     let text = String::from_utf8(file).expect("ASCII");
     assert!(text.contains(&format!(";Z:{}", plain.specs()[0].print_z + lift)));
 }

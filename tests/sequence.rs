@@ -2,11 +2,11 @@
 
 mod common;
 
+use common::ranges::{file, own, shared};
 use common::{cube, cuboid, cylinder, moved};
-use foothold::gcode::assemble;
 use foothold::gcode::read::{ReadMove, Reader, read};
 use foothold::mesh::{Mesh, load, stl::write_binary};
-use foothold::pipeline::{Finished, Job, JobError, NamedModel, RangeResult, Share};
+use foothold::pipeline::{Finished, Job, JobError, NamedModel};
 use foothold::settings::Settings;
 use glam::{DMat4, DVec2, Vec3, dvec2, dvec3};
 
@@ -31,32 +31,6 @@ fn prepared(meshes: &[Mesh], sets: &[&str]) -> Result<Job, JobError> {
     let mut job = Job::new(&named(meshes), settings(sets), &|| 0.0)?;
     job.prepare(&|| 0.0)?;
     Ok(job)
-}
-
-/// The file when each of `cuts` begins a range, each range worked by `work`.
-fn file(
-    mut job: Job,
-    cuts: &[usize],
-    work: impl Fn(&Job, usize, usize) -> RangeResult,
-) -> (Vec<u8>, Finished) {
-    let results: Vec<RangeResult> = cuts.windows(2).map(|w| work(&job, w[0], w[1])).collect();
-    let mut texts = Vec::new();
-    for result in results {
-        job.add(result.meta);
-        texts.extend(result.texts);
-    }
-    let finished = job.finish(&|| 0.0).expect("all layers are there");
-    (assemble(&finished.joined, &texts), finished)
-}
-
-fn own(job: &Job, first: usize, last: usize) -> RangeResult {
-    job.slice(first, last, &|| 0.0)
-}
-
-fn shared(job: &Job, first: usize, last: usize) -> RangeResult {
-    let bytes = postcard::to_allocvec(&job.share(first, last)).expect("it can be written");
-    let share: Share = postcard::from_bytes(&bytes).expect("it can be read");
-    share.slice(&|| 0.0)
 }
 
 fn sliced(meshes: &[Mesh], sets: &[&str]) -> (String, Finished) {

@@ -4,6 +4,9 @@
 // Each test binary includes this file and uses a part of it.
 #![allow(dead_code, unreachable_pub)]
 
+pub mod layers;
+pub mod ranges;
+
 use foothold::mesh::Mesh;
 use foothold::polygon::trig;
 use glam::{DVec2, Vec3, dvec2, dvec3, vec3};
