@@ -63,7 +63,7 @@ mod tests {
         fn equal_elements_keep_their_order(keys in prop::collection::vec(0u8..9, 0..200)) {
             let mut sorted: Vec<(u8, usize)> = keys.iter().copied().zip(0..).collect();
             let mut twin = sorted.clone();
-            twin.sort_by(|a, b| b.0.cmp(&a.0));
+            twin.sort_by_key(|it| std::cmp::Reverse(it.0));
             sorted.stable_sort_by(|a, b| b.0.cmp(&a.0));
             prop_assert_eq!(&sorted, &twin);
             twin.sort_by_key(|it| it.0 % 4);
