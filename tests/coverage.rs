@@ -2,32 +2,27 @@
 //! other means than the slicer's own: every layer of the closed models, printed solid.
 #![cfg(not(target_arch = "wasm32"))]
 
+#[path = "common/area.rs"]
+mod area;
 mod common;
 
-use foothold::gcode::assemble;
-use foothold::gcode::read::{ReadGcode, ReadLayer, Strand, read};
-use foothold::mesh::{LoadedModel, Mesh, load};
-use foothold::pipeline::{Job, NamedModel};
-use foothold::settings::Settings;
-use foothold::slice::LayerSpec;
+use area::{Area, difference, edges, offset, opened, section, size, united};
+use foothold::gcode::read::{ReadLayer, Strand};
+use foothold::mesh::Mesh;
 use glam::DVec2;
-use i_overlay::core::fill_rule::FillRule;
-use i_overlay::core::overlay_rule::OverlayRule;
-use i_overlay::float::simplify::SimplifyShape;
-use i_overlay::float::single::SingleFloatOverlay;
-use i_overlay::mesh::float::outline::offset::OutlineOffset;
-use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
-
-type Area = Vec<Vec<Vec<[f64; 2]>>>;
 
 /// Solid, nothing beside the part, nothing drawn in.
 const SOLID: [&str; 3] = ["infill.density=1", "adhesion.kind=none", "first_layer.elephant_foot=0"];
 
 /// Nominal line width, mm.
 const LINE: f64 = 0.45;
+
+/// What misses the aim, coverage and distance: beside raised letters 0.4 mm high, and where the tip of a
+/// narrowing slot parts two walls, spots of up to 0.05 mm2 stay open.
+const NOT_YET: [(&str, f64, f64); 2] = [("overhang.stl", 0.985, 0.12), ("angle_block_mm.stl", 0.99, 0.16)];
 
 /// What one layer comes to.
 #[derive(Debug, Clone, Copy, Default)]
@@ -48,64 +43,11 @@ struct Measure {
 }
 
 impl Measure {
-    /// The aim is 0.99 covered and 0.05 mm short; small letters and thin circles miss it so far.
-    fn is_good(&self) -> bool {
-        self.covered >= 0.98 && self.outside < 0.01 && self.past < 0.002 && self.short_of < 0.13
+    fn is_good(&self, name: &str) -> bool {
+        let known = NOT_YET.iter().find(|known| known.0 == name);
+        let (covered, short_of) = known.map_or((0.99, 0.05), |known| (known.1, known.2));
+        self.covered >= covered && self.outside < 0.01 && self.past < 0.002 && self.short_of < short_of
     }
-}
-
-/// The cut of a mesh at a height: where its triangles wind round at least once.
-///
-/// No contour is chained. Each cut triangle gives a directed edge, each edge a triangle with a fixed
-/// point; the windings of those add up to the winding of the closed outline.
-fn section(mesh: &Mesh, z: f64) -> Area {
-    let cuts: Vec<[DVec2; 2]> = (0..mesh.triangles.len()).filter_map(|t| cut(mesh, t, z)).collect();
-    let Some(pivot) = cuts.first().map(|c| c[0]) else { return Area::new() };
-    let fan: Vec<Vec<[f64; 2]>> = cuts
-        .iter()
-        .filter(|c| c[0] != c[1] && (c[0] - pivot).perp_dot(c[1] - pivot) != 0.0)
-        .map(|c| vec![pivot.to_array(), c[0].to_array(), c[1].to_array()])
-        .collect();
-    fan.simplify_shape(FillRule::NonZero)
-}
-
-/// Where the plane cuts a triangle; the part lies to the left.
-fn cut(mesh: &Mesh, triangle: usize, z: f64) -> Option<[DVec2; 2]> {
-    let corners = mesh.triangles[triangle].map(|v| mesh.vertices[v as usize].as_dvec3());
-    let mut ends: [Option<DVec2>; 2] = [None, None];
-    for i in 0..3 {
-        let (a, b) = (corners[i], corners[(i + 1) % 3]);
-        let goes_up = a.z < z && b.z >= z;
-        if goes_up || (b.z < z && a.z >= z) {
-            let (low, high) = if goes_up { (a, b) } else { (b, a) };
-            let at = low.truncate() + (high - low).truncate() * ((z - low.z) / (high.z - low.z));
-            // Seen from outside the part, the edge runs from where the outline rises to where it falls.
-            ends[usize::from(goes_up)] = Some(at);
-        }
-    }
-    Some([ends[0]?, ends[1]?])
-}
-
-fn offset(area: &Area, by: f64) -> Area {
-    let style = OutlineStyle::new(by).line_join(LineJoin::Round(0.1));
-    area.outline(&style)
-}
-
-fn opened(area: &Area, by: f64) -> Area {
-    offset(&offset(area, -by), by)
-}
-
-fn size(area: &Area) -> f64 {
-    let signed = |ring: &Vec<[f64; 2]>| {
-        let n = ring.len();
-        let cross = |i: usize| ring[i][0] * ring[(i + 1) % n][1] - ring[i][1] * ring[(i + 1) % n][0];
-        (0..n).map(cross).sum::<f64>() / 2.0
-    };
-    area.iter().flatten().map(signed).sum::<f64>().abs()
-}
-
-fn difference(a: &Area, b: &Area) -> Area {
-    a.overlay(b, OverlayRule::Difference, FillRule::NonZero)
 }
 
 /// Points every 0.1 mm along all outlines, counted through short edges.
@@ -129,11 +71,7 @@ fn along(area: &Area) -> Vec<DVec2> {
 /// Points inside, 0.07 mm apart.
 fn samples(area: &Area) -> Vec<DVec2> {
     const STEP: f64 = 0.07;
-    let edges: Vec<[DVec2; 2]> = area
-        .iter()
-        .flatten()
-        .flat_map(|ring| (0..ring.len()).map(|i| [ring[i].into(), ring[(i + 1) % ring.len()].into()]))
-        .collect();
+    let edges = edges(area);
     let rows = |f: fn(f64, f64) -> f64, start: f64| edges.iter().map(|e| e[0].y).fold(start, f);
     let (low, high) = (rows(f64::min, f64::MAX), rows(f64::max, f64::MIN));
     let mut points = Vec::new();
@@ -173,7 +111,7 @@ fn painted(capsules: &[(DVec2, DVec2, f64)]) -> Area {
         };
         arc(b, 0.0).chain(arc(a, PI)).collect::<Vec<[f64; 2]>>()
     };
-    capsules.iter().map(ring).collect::<Vec<_>>().simplify_shape(FillRule::NonZero)
+    united(capsules.iter().map(ring).collect())
 }
 
 /// Capsules in square cells of 1 mm.
@@ -247,27 +185,6 @@ fn manifest(folder: &Path) -> Vec<Value> {
     manifest["files"].as_array().expect("a list of files").clone()
 }
 
-/// A print with what it was made from.
-struct Print {
-    mesh: Mesh,
-    specs: Vec<LayerSpec>,
-    file: ReadGcode,
-}
-
-fn print(model: LoadedModel, sets: &[&str]) -> Print {
-    let settings = Settings::resolve([], sets.iter().copied()).expect("good settings");
-    let named = NamedModel::new("part", model);
-    let mut job = Job::new(&[named], settings, &|| 0.0).expect("it fits");
-    job.prepare(&|| 0.0).expect("good settings");
-    let range = job.slice(0, job.layer_count(), &|| 0.0);
-    let (mesh, specs) = (job.mesh().clone(), job.specs().to_vec());
-    job.add(range.meta);
-    let finished = job.finish(&|| 0.0).expect("all layers are there");
-    let file = read(&assemble(&finished.joined, &range.texts), 1.75);
-    assert_eq!((file.malformed, file.layers.len()), (0, specs.len()));
-    Print { mesh, specs, file }
-}
-
 #[test]
 fn beads_cover_the_section_and_keep_to_its_outline() {
     let Some(folder) = common::models_dir() else { return };
@@ -275,14 +192,11 @@ fn beads_cover_the_section_and_keep_to_its_outline() {
     let mut wrong = Vec::new();
     for entry in manifest(&folder) {
         let name = entry["name"].as_str().expect("a name");
-        if entry["kind"] != "good"
-            || entry["watertight"] == false
-            || only.as_ref().is_some_and(|o| !name.contains(o.as_str()))
-        {
+        if entry["kind"] != "good" || only.as_ref().is_some_and(|o| !name.contains(o.as_str())) {
             continue;
         }
         let bytes = std::fs::read(folder.join(name)).expect("the model is there");
-        let print = print(load(&bytes).expect("it can be read"), &SOLID);
+        let print = common::print(&bytes, &SOLID);
         let mut worst = Measure { covered: 1.0, ..Measure::default() };
         for (index, (spec, layer)) in print.specs.iter().zip(&print.file.layers).enumerate() {
             let Some(found) =
@@ -295,7 +209,7 @@ fn beads_cover_the_section_and_keep_to_its_outline() {
             worst.past = worst.past.max(found.past);
             worst.short_of = worst.short_of.max(found.short_of);
             worst.filled = worst.filled.max(found.filled);
-            if !found.is_good() {
+            if !found.is_good(name) {
                 wrong.push(format!("{name} layer {index}: {found:.4?}"));
             }
         }

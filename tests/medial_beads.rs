@@ -3,8 +3,10 @@
 
 use foothold::polygon::trig::sin_cos;
 use foothold::polygon::{Contour, DVec2, PolygonSet, by_x_then_y, dvec2, snap};
-use foothold::region::{Path, Role, Width};
+use foothold::region::{Bead, Path, Role, Width};
+use foothold::toolpath::infill::fill_solid;
 use foothold::toolpath::medial::{ThinBeads, ThinFill, fill_thin};
+use foothold::toolpath::walls::lay_walls;
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
@@ -293,6 +295,23 @@ proptest! {
     fn any_area_gives_sane_beads(shape in wild()) {
         let options = ThinFill::default();
         assert_sane(&fill_thin(&shape, &options), &options);
+    }
+
+    #[test]
+    fn walls_and_fills_of_any_area_have_widths_that_a_nozzle_lays(shape in wild(), layer in 0..2u32) {
+        let bead = Bead { width: 0.45, height: 0.2 };
+        let walls = lay_walls(&shape, bead, 3);
+        let (filled, narrow) = fill_solid(&walls.inner, Role::SolidInfill, bead, layer);
+        let thin = [&walls.thin_outer, &walls.thin_inner, &narrow];
+        let nozzle = ThinFill::for_nozzle(0.4, Role::GapFill);
+        let thin = thin.into_iter().flat_map(|area| fill_thin(area, &nozzle).paths);
+        for path in walls.loops.into_iter().map(|(_, path)| path).chain(filled).chain(thin) {
+            prop_assert!(path.points.len() >= 2 && path.points.iter().all(|p| p.is_finite()));
+            let widths = (0..path.points.len()).map(|i| path.width.at(i));
+            for width in widths {
+                prop_assert!((0.2 - 1e-9..=0.8 + 1e-9).contains(&width), "{width} in {path:?}");
+            }
+        }
     }
 
     #[test]

@@ -29,6 +29,9 @@ const MOST_PIECES: f64 = 1000.0;
 /// than this share: well within the 1 % promised, and few enough lines.
 const WIDTH_TOLERANCE: f64 = 0.005;
 
+/// The gap at a seam is no larger than this share of its loop: tiny loops would lack plastic.
+const LARGEST_SEAM_GAP: f64 = 0.01;
+
 /// Speed over a wipe as a share of the travel speed, as PrusaSlicer has it.
 const WIPE_SPEED: f64 = 0.8;
 
@@ -305,7 +308,9 @@ impl<'a> Planner<'a> {
     fn closing_end(&self, path: &Path, places: &[Place]) -> Option<Place> {
         let (&first, &last) = (places.first()?, places.last()?);
         let gap = match path.role {
-            Role::OuterWall | Role::InnerWall | Role::OverhangWall => self.beads.seam_gap,
+            Role::OuterWall | Role::InnerWall | Role::OverhangWall => {
+                self.beads.seam_gap.min(LARGEST_SEAM_GAP * path.length())
+            }
             _ => 0.0,
         };
         let length = last.distance(first);

@@ -19,7 +19,7 @@ use crate::settings::Settings;
 use crate::slice::heights::plan_layers_of;
 use crate::slice::{Axis, LayerSpec, slice_triangles};
 use crate::support::{SupportInput, SupportMethod, SupportOptions, Supports, check_options, plan_supports};
-use crate::toolpath::infill::line_density;
+use crate::toolpath::infill::{InfillOptions, true_lines};
 use crate::toolpath::seam::{SeamLine, SeamPosition, chain_seams};
 use crate::toolpath::walls::lay_walls;
 
@@ -56,14 +56,14 @@ pub(super) struct Body {
     triangles: Vec<Range<u32>>,
     /// See [`RangePlan::seams`].
     seams: Vec<SeamLine>,
-    /// See [`RangePlan::line_density`].
-    line_density: f64,
+    /// See [`RangePlan::infill`].
+    infill: InfillOptions,
 }
 
 impl Body {
     pub(super) fn new(settings: Settings, triangles: Range<u32>) -> Body {
-        let line_density = settings.infill.density;
-        Body { settings, triangles: vec![triangles], seams: Vec::new(), line_density }
+        let infill = settings.infill.clone();
+        Body { settings, triangles: vec![triangles], seams: Vec::new(), infill }
     }
 
     fn triangles(&self) -> impl Iterator<Item = u32> + Clone + '_ {
@@ -162,10 +162,10 @@ impl Print {
         let foundation = self.lay_foundation(adhesion, &outline, &PolygonSet::union_all(&bed_areas))?;
         let adhesion_ms = clock() - supported;
         self.teeth.clone_from(&foundation.drawing);
-        let followed: Vec<(f64, Vec<SeamLine>)> =
-            self.bodies.iter().map(|b| (self.infill_line_density(b), self.chain_seams(b))).collect();
-        for (body, (line_density, seams)) in self.bodies.iter_mut().zip(followed) {
-            (body.line_density, body.seams) = (line_density, seams);
+        let followed: Vec<(InfillOptions, Vec<SeamLine>)> =
+            self.bodies.iter().map(|b| (self.true_infill(b), self.chain_seams(b))).collect();
+        for (body, (infill, seams)) in self.bodies.iter_mut().zip(followed) {
+            (body.infill, body.seams) = (infill, seams);
         }
         let told = foundation.warnings.iter().map(adhesion_warning);
         let found = supports.iter().flat_map(|s| s.warnings().iter().map(support_warning));
@@ -192,11 +192,11 @@ impl Print {
         Ok(prepared)
     }
 
-    /// See [`RangePlan::line_density`]; from a few layers spread over the models' height.
-    fn infill_line_density(&self, body: &Body) -> f64 {
+    /// See [`RangePlan::infill`]; from a few layers spread over the models' height.
+    fn true_infill(&self, body: &Body) -> InfillOptions {
         let Settings { walls, infill, layers, .. } = &body.settings;
         if infill.density >= 1.0 {
-            return infill.density;
+            return infill.clone();
         }
         let specs = self.specs_of(body);
         let of_sample = |i: usize| specs[(2 * i + 1) * specs.len() / (2 * DENSITY_SAMPLES)].slice_z;
@@ -205,7 +205,7 @@ impl Print {
         let sections = self.body_sections(body, &heights).into_iter();
         let inside: Vec<PolygonSet> =
             sections.map(|area| lay_walls(&area, bead, walls.count).inner).collect();
-        line_density(&inside, bead, infill)
+        true_lines(&inside, bead, infill)
     }
 
     /// See [`RangePlan::seams`]; from every few layers, which is enough to follow a corner.
@@ -390,7 +390,7 @@ impl Print {
             first: first - low,
             last: last - low,
             seams: body.seams.clone(),
-            line_density: body.line_density,
+            infill: body.infill.clone(),
             laid: part_of(&self.laid, &|k| turn(k) == 0),
             after: part_of(&self.after, &|k| turn(k) + 1 == count),
             objects: objects.to_vec(),

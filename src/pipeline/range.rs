@@ -7,7 +7,7 @@ use super::report::{Timing, Warning};
 use super::{Clock, check, vase};
 use crate::gcode::{GcodeOptions, LabelledObject, LayerInput, LayerSummary, Spiral, layer_gcode};
 use crate::mesh::Mesh;
-use crate::polygon::{DVec2, Join, PolygonSet};
+use crate::polygon::{DVec2, Join, Polygon, PolygonSet};
 use crate::region::bridge::{Bridge, bridges};
 use crate::region::first_layer::draw_in;
 use crate::region::shell::{Division, Exposure, Shells, divide, exposure, hair_of_walls};
@@ -18,10 +18,10 @@ use crate::support::SupportMethod;
 use crate::toolpath::infill::lines::{Hatch, hatch_linked};
 use crate::toolpath::infill::{InfillLayer, InfillOptions, fill_solid, fill_sparse, fill_surface};
 use crate::toolpath::ironing::iron;
-use crate::toolpath::medial::{ThinFill, fill_thin};
+use crate::toolpath::medial::{ThinFill, carried_to_walls, fill_thin};
 use crate::toolpath::overhang::mark_overhangs;
 use crate::toolpath::seam::{SeamLine, place_seams};
-use crate::toolpath::walls::lay_walls;
+use crate::toolpath::walls::{fill_narrow, lay_walls};
 use crate::toolpath::{LayerParts, LayerPaths, Way, order_layer};
 
 /// By how much a contour may be simplified for printing, mm: an eighth of what a printer's
@@ -45,9 +45,9 @@ pub struct RangePlan {
     pub last: usize,
     /// Where the seams of outer walls run up the part.
     pub seams: Vec<SeamLine>,
-    /// Density at which sparse infill is laid, so that with what joins its lines the print as a whole
-    /// has the density that is set.
-    pub line_density: f64,
+    /// How sparse infill is laid, so that with what joins its lines the print as a whole has the
+    /// density that is set.
+    pub infill: InfillOptions,
     /// For each layer to print what the global phase has laid, base layers and supports, in
     /// printing order; printed before the part.
     pub laid: Vec<Vec<Path>>,
@@ -304,6 +304,17 @@ impl SkinNeighbours {
     }
 }
 
+/// Lets solid regions reach into each other and into sparse infill as far as they do into walls, so that
+/// no gaps stay open between their lines.
+fn reach_over(regions: &mut [Region], overlap: f64, inner: &PolygonSet) {
+    if regions.len() < 2 {
+        return;
+    }
+    for region in regions.iter_mut().filter(|region| region.role != Role::Infill) {
+        region.area = region.area.offset(overlap, Join::WALL).intersection(inner);
+    }
+}
+
 /// Fills need not follow the innermost wall closer than this, mm: they reach into it farther.
 const FILL_RESOLUTION: f64 = 0.03;
 
@@ -340,9 +351,28 @@ struct Neighbours<'a> {
 fn fill_bridge(bridge: &Bridge, bead: Bead, flow: f64) -> (Vec<Path>, PolygonSet) {
     let hatch = Hatch::along(bridge.direction, bead.spacing());
     let (paths, narrow) = hatch_linked(&bridge.area, Role::Bridge, bead, hatch);
-    let width = bead.with_flow(flow).width;
-    (paths.into_iter().map(|path| Path { width: Width::Uniform(width), ..path }).collect(), narrow)
+    let thinned = |width: f64| Bead { width, ..bead }.with_flow(flow).width;
+    let with_flow = |path: Path| {
+        let width = match path.width {
+            Width::Uniform(width) => Width::Uniform(thinned(width)),
+            Width::Varying(widths) => Width::Varying(widths.into_iter().map(thinned).collect()),
+        };
+        Path { width, ..path }
+    };
+    (paths.into_iter().map(with_flow).collect(), narrow)
 }
+
+/// Thin places whose middle line was not found, told by the first of them.
+fn fallback_warning(places: &[DVec2], layer: u32) -> Option<Warning> {
+    let message = format!(
+        "no middle line found in {} thin place(s): loops follow the outline there and may leave gaps",
+        places.len()
+    );
+    places.first().map(|&at| Warning::on_layer("thin_place_outlined", message, layer, at))
+}
+
+/// A place for single beads, and by how much these are wider than it, mm.
+type ThinPlace = (PolygonSet, f64);
 
 /// Lays the fills of one layer.
 struct LayerFills<'a> {
@@ -360,72 +390,86 @@ impl LayerFills<'_> {
         regions: Vec<Region>,
         bridges: Vec<Bridge>,
         parts: &mut LayerParts,
-    ) -> Vec<PolygonSet> {
+    ) -> Vec<ThinPlace> {
         let settings = &self.plan.settings;
         // The area reaches into the walls already, as far as skins do.
         let reach = (settings.infill.overlap - settings.skin.overlap).max(0.0);
-        let sparse = InfillOptions { overlap: reach, ..settings.infill.clone() };
+        let sparse = InfillOptions { overlap: reach, ..self.plan.infill.clone() };
         let mut narrow_places = Vec::new();
         for region in regions {
-            narrow_places.extend(self.fill_region(&region, &sparse, parts));
+            narrow_places.extend(self.fill_region(region, &sparse, parts));
         }
         for bridge in bridges {
             let (paths, narrow) = fill_bridge(&bridge, self.bead, settings.skin.bridge_flow);
             parts.fills.extend(paths);
-            narrow_places.push(narrow);
+            narrow_places.push((narrow, self.wider_beside_fills()));
         }
         narrow_places
     }
 
+    /// What fills leave over has their overlap with the walls in it.
+    fn wider_beside_fills(&self) -> f64 {
+        self.bead.overlap() - 2.0 * self.overlap
+    }
+
     /// Lays a region as its role asks; gives what is too narrow for solid lines.
-    fn fill_region(
-        &self,
-        region: &Region,
-        sparse: &InfillOptions,
-        parts: &mut LayerParts,
-    ) -> Option<PolygonSet> {
-        let LayerFills { plan: RangePlan { settings, line_density, .. }, spec, bead, .. } = *self;
+    fn fill_region(&self, region: Region, sparse: &InfillOptions, parts: &mut LayerParts) -> Vec<ThinPlace> {
+        let LayerFills { plan: RangePlan { settings, .. }, spec, bead, .. } = *self;
         if region.role == Role::TopSkin && settings.ironing.enabled {
             parts.fills.extend(iron(&region.area, spec.height, spec.index, &settings.ironing));
         }
         if region.role == Role::Infill {
             let layer = InfillLayer { index: spec.index, z: spec.print_z };
-            parts.fills.extend(fill_sparse(&region.area, bead, layer, *line_density, sparse));
-            return None;
+            parts.fills.extend(fill_sparse(&region.area, bead, layer, sparse));
+            return Vec::new();
         }
         if matches!(region.role, Role::TopSkin | Role::BottomSkin) && settings.skin.monotonic {
             let (rows, narrow) = fill_surface(&region.area, region.role, bead, spec.index);
             parts.rows.extend(rows);
-            return Some(narrow);
+            return vec![(narrow, self.wider_beside_fills())];
         }
-        let (paths, narrow) = fill_solid(&region.area, region.role, bead, spec.index);
+        let mut wide = Vec::new();
+        let mut thin = Vec::new();
+        for island in region.area.islands().into_iter().map(Polygon::into_set) {
+            let Some(loops) = fill_narrow(&island, region.role, bead) else {
+                wide.extend(island.into_contours());
+                continue;
+            };
+            parts.fills.extend(loops.loops.into_iter().map(|(_, path)| path));
+            thin.extend([(loops.thin_outer, 0.0), (loops.thin_inner, bead.overlap())]);
+        }
+        let (paths, narrow) = fill_solid(&PolygonSet::canonical(wide), region.role, bead, spec.index);
         parts.fills.extend(paths);
-        Some(narrow)
+        thin.push((narrow, self.wider_beside_fills()));
+        thin
     }
 
-    /// Fills walls thinner than two beads, and what walls and fills leave between them.
+    /// Fills walls thinner than two beads, and what walls and fills leave between them; gives the places
+    /// whose outline is followed for want of a middle line.
     fn fill_thin_places(
         &self,
         thin_walls: &PolygonSet,
-        between_walls: PolygonSet,
-        beside_fills: Vec<PolygonSet>,
+        outline: &PolygonSet,
+        gaps: Vec<ThinPlace>,
         parts: &mut LayerParts,
-    ) {
+    ) -> Vec<DVec2> {
         let nozzle = self.plan.settings.printer.nozzle_diameter;
-        parts.fills.extend(fill_thin(thin_walls, &ThinFill::for_nozzle(nozzle, Role::OuterWall)).paths);
-        // A bead between others overlaps them with its round sides, so it is wider than its gap. What
-        // fills leave over has their overlap with the walls in it.
+        let single = fill_thin(thin_walls, &ThinFill::for_nozzle(nozzle, Role::OuterWall));
+        let mut fallbacks = single.fallbacks;
+        if !single.paths.is_empty() {
+            parts.fills.extend(carried_to_walls(single.paths, thin_walls, outline));
+        }
+        // A bead between others overlaps them with its round sides, so it is wider than its gap.
         let gap = |by: f64| {
             let options = ThinFill::for_nozzle(nozzle, Role::GapFill);
             ThinFill { min_width: options.min_width - by, max_width: options.max_width - by, ..options }
         };
-        let wider_beside_fills = self.bead.overlap() - 2.0 * self.overlap;
-        let gaps = std::iter::once((between_walls, self.bead.overlap()));
-        for (area, wider) in gaps.chain(beside_fills.into_iter().map(|narrow| (narrow, wider_beside_fills))) {
-            parts
-                .fills
-                .extend(fill_thin(&area, &gap(wider)).paths.into_iter().map(|path| path.widened(wider)));
+        for (area, wider) in gaps {
+            let beads = fill_thin(&area, &gap(wider));
+            parts.fills.extend(beads.paths.into_iter().map(|path| path.widened(wider)));
+            fallbacks.extend(beads.fallbacks);
         }
+        fallbacks
     }
 }
 
@@ -462,6 +506,7 @@ fn lay_paths(
     let inner = walls.inner.roughened(FILL_RESOLUTION).offset(overlap, Join::WALL);
     let mut regions = divide_inside(&inner, settings, place, exposures, width);
     let bridges = over_air.map_or_else(Vec::new, |below| bridges(&inner, below, width));
+    reach_over(&mut regions, overlap, &inner);
     for region in &mut regions {
         region.area = bridges.iter().fold(std::mem::take(&mut region.area), |a, b| a.difference(&b.area));
     }
@@ -471,8 +516,10 @@ fn lay_paths(
     let mut parts = LayerParts { walls: walls.loops, ..LayerParts::default() };
     parts.foundation = plan.laid.get(place - plan.first).cloned().unwrap_or_default();
     parts.after = plan.after.get(place - plan.first).cloned().unwrap_or_default();
-    let narrow = fills.fill_areas(regions, bridges, &mut parts);
-    fills.fill_thin_places(&walls.thin_outer, walls.thin_inner, narrow, &mut parts);
+    let mut gaps = vec![(walls.thin_inner, bead.overlap())];
+    gaps.extend(fills.fill_areas(regions, bridges, &mut parts));
+    let fallbacks = fills.fill_thin_places(&walls.thin_outer, &outline, gaps, &mut parts);
+    meta.warnings.extend(fallback_warning(&fallbacks, spec.index));
     set_seams(plan, spec, &mut parts);
     let ordered = order_layer(parts, &outline, spec.index, settings.seam.position);
     let ordered = match over_air {

@@ -3,6 +3,7 @@
 
 use super::Role;
 use crate::polygon::DVec2;
+use crate::polygon::simplify::squared_distance_to_segment;
 
 /// Centre line of one bead, open or closed.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -95,6 +96,12 @@ impl Path {
             widths.reverse();
         }
         self
+    }
+
+    /// Whether the centre line, its closing edge left out, comes nearer to `p` than `distance` mm.
+    pub fn is_near(&self, p: DVec2, distance: f64) -> bool {
+        let squared = distance * distance;
+        self.points.windows(2).any(|w| squared_distance_to_segment(p, w[0], w[1]) < squared)
     }
 
     /// Length of the centre line, the closing edge included, mm.

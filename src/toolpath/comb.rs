@@ -1,11 +1,12 @@
 //! Combing: ways between beads that stay inside the part where the straight one would leave it.
 //!
 //! A way that would leave follows the centre lines of the outer walls, half a line inside the
-//! outline, and is then pulled tight.
+//! outline, and is then pulled tight. A way to another island is combed up to where it leaves and from
+//! where it enters.
 
 use super::travel::Way;
 use crate::polygon::grid::EdgeGrid;
-use crate::polygon::{DVec2, PolygonSet};
+use crate::polygon::{DVec2, Polygon};
 
 /// A way inside the part may be this much longer than the straight one; beyond, pulling the filament
 /// back costs less.
@@ -18,6 +19,8 @@ const ON_RAIL: f64 = 0.02;
 /// What keeps travels inside the part on one layer.
 pub(super) struct Comb<'a> {
     outline: EdgeGrid,
+    /// Island of each edge of the outline.
+    islands: Vec<usize>,
     /// Closed lines half a bead inside the outline.
     rails: Vec<&'a [DVec2]>,
     rail_grid: EdgeGrid,
@@ -34,8 +37,13 @@ struct Crossing {
 }
 
 impl<'a> Comb<'a> {
-    pub(super) fn new(outline: &PolygonSet, rails: Vec<&'a [DVec2]>) -> Comb<'a> {
-        let edges: Vec<(DVec2, DVec2)> = outline.contours().iter().flat_map(|c| c.edges()).collect();
+    pub(super) fn new(outline: &[Polygon], rails: Vec<&'a [DVec2]>) -> Comb<'a> {
+        let contours = |island: &Polygon| -> Vec<(DVec2, DVec2)> {
+            std::iter::once(&island.outer).chain(&island.holes).flat_map(|c| c.edges()).collect()
+        };
+        let owned =
+            (0..).zip(outline).flat_map(|(i, island)| contours(island).into_iter().map(move |e| (i, e)));
+        let (islands, edges): (Vec<usize>, Vec<(DVec2, DVec2)>) = owned.unzip();
         let closed = |rail: &[DVec2]| -> Vec<(DVec2, DVec2)> {
             (0..rail.len()).map(|i| (rail[i], rail[(i + 1) % rail.len()])).collect()
         };
@@ -43,6 +51,7 @@ impl<'a> Comb<'a> {
         let owners = rails.iter().enumerate().flat_map(|(r, rail)| (0..rail.len()).map(move |e| (r, e)));
         Comb {
             outline: EdgeGrid::new(&edges),
+            islands,
             owners: owners.collect(),
             rail_grid: EdgeGrid::new(&rail_edges),
             rails,
@@ -61,8 +70,29 @@ impl<'a> Comb<'a> {
             Some(stops) if length(&stops) <= allowed && self.stays_inside(&stops) => {
                 Way { via: stops[1..stops.len() - 1].to_vec(), crosses_outline: false }
             }
-            _ => Way { via: Vec::new(), crosses_outline: self.outline.crosses(a, b) },
+            _ => self
+                .across(a, b)
+                .unwrap_or_else(|| Way { via: Vec::new(), crosses_outline: self.outline.crosses(a, b) }),
         }
+    }
+
+    /// The way to another island that leaves the one and enters the other only once: inside them it is
+    /// combed. `None` if the straight way is as good, or something else stands between.
+    fn across(&self, a: DVec2, b: DVec2) -> Option<Way> {
+        let outlines = self.outline.crossings(a, b);
+        let island = |i: usize| self.islands[outlines[i].1];
+        let last = outlines.len().checked_sub(1).filter(|&last| last > 1 && island(0) != island(last))?;
+        let leave = (0..=last).rfind(|&i| island(i) == island(0))?;
+        let enter = (0..=last).find(|&i| island(i) == island(last)).filter(|&i| i == leave + 1)?;
+        let rails = self.crossings(a, b);
+        let share = |c: &Crossing| a.distance(c.at) / a.distance(b);
+        let p = rails.iter().rfind(|c| share(c) < outlines[leave].0)?.at;
+        let q = rails.iter().find(|c| share(c) > outlines[enter].0)?.at;
+        let inside = |from: DVec2, to: DVec2| Some(self.way(from, to)).filter(|way| !way.crosses_outline);
+        let via = [inside(a, p)?.via, vec![p, q], inside(q, b)?.via].concat();
+        let stops = [&[a][..], &via, &[b]].concat();
+        let is_short = length(&stops) <= LONGEST_DETOUR * a.distance(b);
+        is_short.then_some(Way { via, crosses_outline: true })
     }
 
     /// Whether the straight way crosses neither the outline nor, its ends left aside, a rail.
@@ -151,7 +181,7 @@ fn length(stops: &[DVec2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::polygon::{Join, dvec2};
+    use crate::polygon::{Join, PolygonSet, dvec2};
     use proptest::prelude::*;
 
     fn rails(area: &PolygonSet) -> Vec<Vec<DVec2>> {
@@ -163,7 +193,7 @@ mod tests {
         let l = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(20.0, 5.0))
             .union(&PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(5.0, 20.0)));
         let rails = rails(&l);
-        let comb = Comb::new(&l, rails.iter().map(Vec::as_slice).collect());
+        let comb = Comb::new(&l.islands(), rails.iter().map(Vec::as_slice).collect());
         let way = comb.way(dvec2(4.0, 18.0), dvec2(18.0, 4.0));
         assert!(!way.crosses_outline);
         assert_eq!(way.via, [dvec2(4.8, 4.8)]);
@@ -179,10 +209,27 @@ mod tests {
             .difference(&PolygonSet::rectangle(dvec2(5.0, 5.0), dvec2(15.0, 31.0)))
             .union(&PolygonSet::rectangle(dvec2(30.0, 0.0), dvec2(40.0, 5.0)));
         let rails = rails(&u);
-        let comb = Comb::new(&u, rails.iter().map(Vec::as_slice).collect());
+        let comb = Comb::new(&u.islands(), rails.iter().map(Vec::as_slice).collect());
         assert_eq!(comb.way(dvec2(4.0, 29.0), dvec2(16.0, 29.0)), Way::ACROSS);
         assert_eq!(comb.way(dvec2(18.0, 2.0), dvec2(32.0, 2.0)), Way::ACROSS);
         assert!(!comb.way(dvec2(4.0, 8.0), dvec2(16.0, 8.0)).crosses_outline);
+    }
+
+    #[test]
+    fn a_way_to_another_island_goes_round_the_hole_first() {
+        // A frame and a square below it: the straight way crosses the hole of the frame.
+        let frame = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(20.0, 20.0))
+            .difference(&PolygonSet::rectangle(dvec2(4.0, 4.0), dvec2(16.0, 16.0)));
+        let two = frame.union(&PolygonSet::rectangle(dvec2(8.0, -10.0), dvec2(12.0, -6.0)));
+        let rails = rails(&two);
+        let comb = Comb::new(&two.islands(), rails.iter().map(Vec::as_slice).collect());
+        let (a, b) = (dvec2(5.0, 18.0), dvec2(10.0, -8.0));
+        let way = comb.way(a, b);
+        let stops = [&[a][..], &way.via, &[b]].concat();
+        let crossed = |w: &[DVec2]| comb.outline.crossings(w[0], w[1]).len();
+        assert_eq!(crossed(&[a, b]), 4);
+        assert_eq!(stops.windows(2).map(crossed).sum::<usize>(), 2, "{stops:?}");
+        assert!(way.crosses_outline);
     }
 
     proptest! {
@@ -207,7 +254,7 @@ mod tests {
                 })
             };
             let rails = rails(&area);
-            let comb = Comb::new(&area, rails.iter().map(Vec::as_slice).collect());
+            let comb = Comb::new(&area.islands(), rails.iter().map(Vec::as_slice).collect());
             let inside: Vec<DVec2> =
                 points.into_iter().map(|(x, y)| dvec2(x, y)).filter(|&p| area.contains(p)).collect();
             for pair in inside.windows(2) {

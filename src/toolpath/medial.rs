@@ -27,7 +27,8 @@ mod chains;
 pub(super) use axis::Sample;
 pub(super) use bead::ring;
 
-use crate::polygon::{DVec2, Join, Polygon, PolygonSet, by_x_then_y};
+use crate::polygon::grid::EdgeGrid;
+use crate::polygon::{DVec2, Join, Polygon, PolygonSet, by_x_then_y, snap};
 use crate::region::{Path, Role, Width};
 use crate::sort::StableSort;
 
@@ -40,6 +41,12 @@ const RETRY_TOLERANCE_MM: f64 = 0.002;
 
 /// If they cross still, needles thinner than twice this are cut off, mm.
 const RETRY_OPENING_MM: f64 = 0.005;
+
+/// A bead whose place ends less than this before the part does ends at the outline, mm.
+const TO_OUTLINE_MM: f64 = 0.1;
+
+/// A bead ends at most this far from its place's border, in its widths.
+const LONGEST_GAP: f64 = 1.5;
 
 /// How thin areas are filled.
 #[derive(Debug, Clone, PartialEq)]
@@ -154,6 +161,32 @@ fn fill_island(island: &Polygon, options: &ThinFill, beads: &mut ThinBeads) {
         Some(triangles) => fill_triangles(&triangles, options, beads),
         None => follow_outline(&set, options, beads),
     }
+}
+
+/// The beads in `places`, their ends carried on to the places' border where that lies inside `part`: a
+/// wall runs there, which the beads shall touch.
+pub fn carried_to_walls(paths: Vec<Path>, places: &PolygonSet, part: &PolygonSet) -> Vec<Path> {
+    let edges: Vec<(DVec2, DVec2)> = places.contours().iter().flat_map(|c| c.edges()).collect();
+    let border = EdgeGrid::new(&edges);
+    let carried = |(i, path): (usize, &Path)| {
+        let mut carried = path.clone();
+        let last = path.points.len() - 1;
+        for (end, before) in [(0, 1), (last, last.saturating_sub(1))] {
+            let (from, width) = (path.points[end], path.width.at(end));
+            let way = (from - path.points[before.min(last)]).normalize_or_zero();
+            let Some(&(share, _)) = border.crossings(from, from + way * (LONGEST_GAP * width)).first() else {
+                continue;
+            };
+            let gap = way * (share * LONGEST_GAP * width);
+            let others = paths.iter().enumerate().filter(|&(k, _)| k != i);
+            let is_free = others.map(|(_, p)| p).all(|p| !p.is_near(from + gap / 2.0, width / 2.0));
+            if !path.closed && is_free && part.contains(from + gap + way * TO_OUTLINE_MM) {
+                carried.points[end] = snap(from + gap);
+            }
+        }
+        carried
+    };
+    paths.iter().enumerate().map(carried).collect()
 }
 
 fn fill_triangles(triangles: &border::Triangles, options: &ThinFill, beads: &mut ThinBeads) {

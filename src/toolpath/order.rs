@@ -48,7 +48,8 @@ pub fn order_layer(parts: LayerParts, outline: &PolygonSet, layer: u32, seam: Se
     let [start, goal] = if layer.is_multiple_of(2) { corners } else { [corners[1], corners[0]] };
     let mut paths = parts.foundation;
     let mut here = paths.last().map_or(start, end_of);
-    let islands = on_short_way(by_island(parts.walls, parts.fills, parts.rows, outline), here, goal);
+    let polygons = outline.islands();
+    let islands = on_short_way(by_island(parts.walls, parts.fills, parts.rows, &polygons), here, goal);
     let mut goals: Vec<DVec2> =
         islands.iter().skip(1).map(|i| i.bounds().map_or(goal, |b| b.centre())).collect();
     goals.push(goal);
@@ -57,7 +58,7 @@ pub fn order_layer(parts: LayerParts, outline: &PolygonSet, layer: u32, seam: Se
         order_fills(&island, &mut here, goal, &mut paths);
     }
     paths.extend(parts.after);
-    let ways = find_ways(&paths, outline);
+    let ways = find_ways(&paths, &polygons);
     LayerPaths { paths, ways }
 }
 
@@ -85,21 +86,20 @@ fn by_island(
     walls: Vec<(u32, Path)>,
     fills: Vec<Path>,
     rows: Vec<Vec<Path>>,
-    outline: &PolygonSet,
+    polygons: &[Polygon],
 ) -> Vec<Island> {
-    let polygons = outline.islands();
     let boxes: Vec<Option<Bounds>> = polygons.iter().map(|p| p.outer.bounds()).collect();
     let mut islands: Vec<Island> = Vec::new();
     islands.resize_with(polygons.len().max(1), Island::default);
     for (depth, path) in walls {
-        islands[island_of(&path, &polygons, &boxes)].walls.push((depth, path));
+        islands[island_of(&path, polygons, &boxes)].walls.push((depth, path));
     }
     for path in fills {
-        islands[island_of(&path, &polygons, &boxes)].fills.push(path);
+        islands[island_of(&path, polygons, &boxes)].fills.push(path);
     }
     for row in rows {
         if let Some(first) = row.first() {
-            islands[island_of(first, &polygons, &boxes)].rows.push(row);
+            islands[island_of(first, polygons, &boxes)].rows.push(row);
         }
     }
     islands
@@ -221,7 +221,7 @@ fn entered_near(path: &Path, here: DVec2) -> Path {
 }
 
 /// Combed ways; the rails are the outer walls, which run half a bead inside the outline.
-fn find_ways(paths: &[Path], outline: &PolygonSet) -> Vec<Way> {
+fn find_ways(paths: &[Path], outline: &[Polygon]) -> Vec<Way> {
     let rails = paths.iter().filter(|p| p.closed && p.role == Role::OuterWall).map(|p| p.points.as_slice());
     let comb = Comb::new(outline, rails.collect());
     let ways = paths.windows(2).map(|w| comb.way(end_of(&w[0]), w[1].points[0]));

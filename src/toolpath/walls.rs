@@ -130,7 +130,7 @@ pub fn lay_walls(outline: &PolygonSet, bead: Bead, count: u32) -> Walls {
         let roomy = core.offset(strips.widest / 2.0 + to_centre, Join::WALL);
         if walls.inner.area() - roomy.area() >= NO_CLOSE_PLACES {
             let close = walls.inner.difference(&roomy);
-            let centre = lines.opened(strips.narrowest / 2.0, Join::WALL);
+            let centre = without_thin(&lines, strips.narrowest / 2.0);
             let thin = thin_places(&walls.inner, &close, &centre, to_centre);
             match depth {
                 0 => walls.thin_outer = thin,
@@ -147,6 +147,49 @@ pub fn lay_walls(outline: &PolygonSet, bead: Bead, count: u32) -> Walls {
     walls.thin_inner = PolygonSet::union_all(&thin_inner);
     walls
 }
+
+/// Corners down to 20 degrees keep their tips where it matters: the outline.
+const SHARP: Join = Join::Mitre { limit: 6.0 };
+
+/// Whether the contour has a corner of less than 60 degrees, whose tip [`Join::WALL`] cuts off.
+fn has_sharp_corner(contour: &Contour) -> bool {
+    let points = &contour.points;
+    let n = points.len();
+    let way = |i: usize| (points[(i + 1) % n] - points[i % n]).normalize_or_zero();
+    (0..n).any(|i| way(i).perp_dot(way(i + 1)) > 0.0 && way(i).dot(way(i + 1)) < -0.5)
+}
+
+/// Vertices of an intersection of nearly equal outlines closer than this to its edges go, mm.
+const SAME_LINE: f64 = 1e-3;
+
+/// The area without what is thinner than twice `radius`; sharp corners stay.
+fn without_thin(lines: &PolygonSet, radius: f64) -> PolygonSet {
+    let core = lines.offset(-radius, Join::WALL);
+    if core.contours().iter().any(has_sharp_corner) {
+        return core.offset(radius, SHARP).intersection(lines).simplified(SAME_LINE);
+    }
+    core.offset(radius, Join::WALL)
+}
+
+/// Fills an area narrower than three beads with loops and what they leave between them: lines across it
+/// would be short and shake the printer.
+///
+/// The area's border is that of the beads' cells. Returns the loops, places at the border too thin for
+/// two beads, and the like between the loops. `None` if the area is wider.
+pub fn fill_narrow(area: &PolygonSet, role: Role, bead: Bead) -> Option<Walls> {
+    let spacing = bead.spacing();
+    // The mean thickness is a quick answer for most.
+    let is_narrow = 2.0 * area.area() < NARROW * spacing * area.length()
+        && area.offset(-NARROW / 2.0 * spacing, Join::WALL).is_empty();
+    is_narrow.then(|| {
+        let mut walls = lay_walls(&area.offset(bead.overlap() / 2.0, Join::WALL), bead, 2);
+        walls.loops.iter_mut().for_each(|(_, path)| path.role = role);
+        walls
+    })
+}
+
+/// Thickness up to which an area is filled with loops, in line distances.
+const NARROW: f64 = 3.0;
 
 /// What of `area` the walls along `centre` do not reach, without hair-thin slivers; all of it lies in
 /// `close`, and next to nothing elsewhere.

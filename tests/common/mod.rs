@@ -7,8 +7,13 @@
 pub mod layers;
 pub mod ranges;
 
-use foothold::mesh::Mesh;
+use foothold::gcode::assemble;
+use foothold::gcode::read::{ReadGcode, read};
+use foothold::mesh::{Mesh, load};
+use foothold::pipeline::{Job, NamedModel};
 use foothold::polygon::trig;
+use foothold::settings::Settings;
+use foothold::slice::LayerSpec;
 use glam::{DVec2, Vec3, dvec2, dvec3, vec3};
 use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
@@ -28,6 +33,30 @@ pub fn models_dir() -> Option<PathBuf> {
         eprintln!("skipped: no folder of models (set FOOTHOLD_MODELS)");
     }
     found
+}
+
+/// A print with what it was made from.
+pub struct Print {
+    pub mesh: Mesh,
+    pub specs: Vec<LayerSpec>,
+    pub text: Vec<u8>,
+    /// The text read back.
+    pub file: ReadGcode,
+}
+
+/// Slices a file in one range with these settings, each `path=value`.
+pub fn print(model: &[u8], sets: &[&str]) -> Print {
+    let settings = Settings::resolve([], sets.iter().copied()).expect("good settings");
+    let named = NamedModel::new("part", load(model).expect("it can be read"));
+    let mut job = Job::new(&[named], settings, &|| 0.0).expect("it fits");
+    job.prepare(&|| 0.0).expect("good settings");
+    let range = job.slice(0, job.layer_count(), &|| 0.0);
+    let (mesh, specs) = (job.mesh().clone(), job.specs().to_vec());
+    job.add(range.meta);
+    let text = assemble(&job.finish(&|| 0.0).expect("all layers are there").joined, &range.texts);
+    let file = read(&text, 1.75);
+    assert_eq!((file.malformed, file.layers.len()), (0, specs.len()));
+    Print { mesh, specs, text, file }
 }
 
 /// A box between two corners; 12 triangles.

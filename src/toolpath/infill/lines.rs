@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use super::border::{Border, Piece};
 use crate::polygon::{Contour, DVec2, Join, PolygonSet, dvec2};
 use crate::region::Bead;
-use crate::region::{Path, Role};
+use crate::region::{Path, Role, Width};
 use crate::sort::StableSort;
 
 /// Sine of 60 degrees.
@@ -163,14 +163,15 @@ pub(super) fn hatch(area: &PolygonSet, border: &Border<'_>, hatch: Hatch) -> Vec
     weave.in_line_order().chunks_exact(2).map(piece).collect()
 }
 
-/// A link along the border may be this many line distances long.
-const LONGEST_LINK: f64 = 3.0;
+/// A link along the border may be this many line distances long; it fills the strip along the border
+/// doubly, and where that is slanted more, beads end in wedges.
+const LONGEST_LINK: f64 = WEDGE_FROM;
 
 /// Fills the area with lines that lie side by side, linked along the border to long beads. Returns
 /// them and what of the area is too narrow for a bead.
 ///
-/// The links run half a spacing inside the border; an end without a link is drawn out to the
-/// border. Both ways the strip along the border is filled exactly once.
+/// The links run half a spacing inside the border; an end without a link is drawn out to the border,
+/// or gets narrower along it where it is slanted. All ways the strip along the border is filled once.
 pub fn hatch_linked(area: &PolygonSet, role: Role, bead: Bead, hatch: Hatch) -> (Vec<Path>, PolygonSet) {
     let half = bead.spacing() / 2.0;
     let core = area.offset(-half, Join::WALL);
@@ -181,8 +182,7 @@ pub fn hatch_linked(area: &PolygonSet, role: Role, bead: Bead, hatch: Hatch) -> 
     let mut paths = Vec::new();
     for start in weave.in_line_order() {
         if !laid[start] {
-            let points = lay_from(&weave, &core, half, start, &mut laid);
-            paths.push(Path::open(role, points, bead.width));
+            paths.push(lay_from(&weave, &core, bead, start, &mut laid).into_path(role));
         }
     }
     (paths, narrow)
@@ -204,7 +204,7 @@ pub fn hatch_monotonic(area: &PolygonSet, role: Role, bead: Bead, hatch: Hatch) 
     let mut paths: Vec<Path> = Vec::new();
     let mut here = DVec2::ZERO;
     while let Some((at, end)) = lines.nearest_end(&weave, &free, here) {
-        let mut points = vec![drawn_out(&weave, end, half)];
+        let mut line = Line::from_end(&weave, &core, bead, end);
         let (mut at, mut end) = (at, end);
         loop {
             let piece = free.swap_remove(at);
@@ -221,16 +221,15 @@ pub fn hatch_monotonic(area: &PolygonSet, role: Role, bead: Bead, hatch: Hatch) 
                 Some((at, to, link))
             });
             let Some((next_at, to, link)) = up else {
-                points.push(drawn_out(&weave, out, half));
+                line.finish(&weave, &core, bead, out);
                 break;
             };
-            points.push(weave.point(out));
-            points.extend(link);
-            points.push(weave.point(to));
+            line.link(weave.point(out), link, weave.point(to));
             (at, end) = (next_at, to);
         }
-        here = points.last().copied().unwrap_or(here);
-        paths.push(Path::open(role, points, bead.width));
+        let path = line.into_path(role);
+        here = path.points.last().copied().unwrap_or(here);
+        paths.push(path);
     }
     (paths, narrow)
 }
@@ -304,7 +303,7 @@ fn narrow_places(area: &PolygonSet, reached: &PolygonSet, bead: Bead) -> Polygon
 
 /// A cap is worth a bead of its own if it is at least this high and this wide, in line distances.
 const LOWEST_CAP: f64 = 0.3;
-const NARROWEST_CAP: f64 = 4.0;
+const NARROWEST_CAP: f64 = 1.0;
 
 /// What of `area` lies beyond lines that have no neighbour on one side: up to a line's distance from
 /// the border that runs along them.
@@ -328,25 +327,124 @@ fn caps(area: &PolygonSet, core: &PolygonSet, weave: &Weave, half: f64) -> Polyg
 }
 
 /// One bead: line, link, line, ... until no unlaid line is within reach of the end.
-fn lay_from(weave: &Weave, core: &PolygonSet, half: f64, start: usize, laid: &mut [bool]) -> Vec<DVec2> {
-    let mut points = vec![drawn_out(weave, start, half)];
+fn lay_from(weave: &Weave, core: &PolygonSet, bead: Bead, start: usize, laid: &mut [bool]) -> Line {
+    let mut line = Line::from_end(weave, core, bead, start);
     let mut here = start;
     loop {
         let end = weave.partner[here];
         (laid[here], laid[end]) = (true, true);
         match nearest_link(weave, core, end, laid) {
             None => {
-                points.push(drawn_out(weave, end, half));
-                return points;
+                line.finish(weave, core, bead, end);
+                return line;
             }
             Some((to, link)) => {
-                points.push(weave.point(end));
-                points.extend(link);
-                points.push(weave.point(to));
+                line.link(weave.point(end), link, weave.point(to));
                 here = to;
             }
         }
     }
+}
+
+/// A bead in the making.
+struct Line {
+    points: Vec<DVec2>,
+    /// One for each point, mm.
+    widths: Vec<f64>,
+    usual: f64,
+}
+
+impl Line {
+    /// Begins at this end of a line.
+    fn from_end(weave: &Weave, core: &PolygonSet, bead: Bead, end: usize) -> Line {
+        let mut line = Line { points: Vec::new(), widths: Vec::new(), usual: bead.width };
+        line.finish(weave, core, bead, end);
+        line.points.reverse();
+        line.widths.reverse();
+        line
+    }
+
+    /// Goes over a link.
+    fn link(&mut self, from: DVec2, between: Vec<DVec2>, to: DVec2) {
+        self.points.push(from);
+        self.points.extend(between);
+        self.points.push(to);
+        self.widths.resize(self.points.len(), self.usual);
+    }
+
+    /// Ends at this end of a line: drawn out, or along the wedge where the border is slanted.
+    fn finish(&mut self, weave: &Weave, core: &PolygonSet, bead: Bead, end: usize) {
+        let wedge = wedge(weave, core, bead, end);
+        if wedge.is_empty() {
+            self.points.push(drawn_out(weave, end, bead.spacing() / 2.0));
+            self.widths.push(bead.width);
+        } else {
+            self.points.push(weave.point(end));
+            self.widths.push(bead.width);
+            self.points.extend(wedge.iter().map(|w| w.0));
+            self.widths.extend(wedge.iter().map(|w| w.1));
+        }
+    }
+
+    fn into_path(self, role: Role) -> Path {
+        let is_uniform = self.widths.iter().all(|&w| w == self.usual);
+        let width = if is_uniform { Width::Uniform(self.usual) } else { Width::Varying(self.widths) };
+        Path { role, points: self.points, closed: false, width, hang: 0.0 }
+    }
+}
+
+/// From this many line distances between the ends of neighbouring lines on, measured along the border,
+/// the wedge between them is filled by a bead that gets narrower: at a slant of 30 degrees.
+const WEDGE_FROM: f64 = 2.0;
+
+/// The bead in a wedge gets as narrow as this share of its width: no nozzle does with much less.
+const WEDGE_TO: f64 = 0.5;
+
+/// Where the border is slanted to a line, a wedge stays open beyond the line's end: between the border
+/// and the next line, which ends farther out. The way through its middle with the bead's widths, as far
+/// as a bead fits.
+///
+/// With y how far the border of the core, s/2 inside that of the area, has moved from the line towards
+/// the next one, and c the cosine of its slant, the wedge is s/2 + (s/2 - y) c thick.
+fn wedge(weave: &Weave, core: &PolygonSet, bead: Bead, end: usize) -> Vec<(DVec2, f64)> {
+    let Some((to, border)) = farther_neighbour(weave, core, end) else { return Vec::new() };
+    let half = bead.spacing() / 2.0;
+    let (hatch, start) = (weave.hatch, weave.point(end));
+    let away = if weave.crossings[to].line > weave.crossings[end].line { -1.0 } else { 1.0 };
+    let level = hatch.to_frame(start).y;
+    let stops: Vec<DVec2> = border.into_iter().chain([weave.point(to)]).collect();
+    let mut found = Vec::new();
+    let (mut from, mut last) = (start, (start, bead.spacing()));
+    for stop in stops {
+        let along = (stop - from).normalize_or_zero();
+        let turned = hatch.to_frame(along.perp());
+        let outward = if turned.y * away < 0.0 { -along.perp() } else { along.perp() };
+        let thickness = half + (half - (level - hatch.to_frame(stop).y) * away) * turned.y.abs();
+        let at = stop + outward * (half - thickness / 2.0);
+        let thinnest = WEDGE_TO * bead.width - bead.overlap();
+        if thickness < thinnest {
+            let share = (last.1 - thinnest) / (last.1 - thickness);
+            found.push((last.0.lerp(at, share), WEDGE_TO * bead.width));
+            return found;
+        }
+        found.push((at, thickness + bead.overlap()));
+        (from, last) = (stop, (at, thickness));
+    }
+    found
+}
+
+/// The end of a neighbouring line that lies next along the border and farther out, if that is far, and
+/// the border's vertices in between.
+fn farther_neighbour(weave: &Weave, core: &PolygonSet, end: usize) -> Option<(usize, Vec<DVec2>)> {
+    let (here, start) = (weave.crossings[end], weave.point(end));
+    let outward = start - weave.point(weave.partner[end]);
+    let ways = [(weave.next[end], true), (weave.previous[end], false)];
+    let farther = ways.into_iter().find(|&(to, _)| {
+        let beside = (weave.crossings[to].line - here.line).abs() == 1;
+        let way = weave.point(to) - start;
+        beside && way.dot(outward) > 0.0 && way.length() > WEDGE_FROM * weave.hatch.distance
+    });
+    farther.map(|(to, forward)| (to, border_between(weave, core, end, to, forward)))
 }
 
 /// The end of a line moved on to the border of the area, which lies `half` outside the core.
@@ -400,7 +498,7 @@ mod tests {
     const BEAD: Bead = Bead { width: 0.45, height: 0.2 };
 
     fn plastic(paths: &[Path]) -> f64 {
-        paths.iter().map(Path::length).sum::<f64>() * BEAD.spacing()
+        paths.iter().map(|p| p.area() - p.length() * BEAD.overlap()).sum()
     }
 
     #[test]

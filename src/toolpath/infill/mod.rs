@@ -78,15 +78,10 @@ pub fn fill_surface(area: &PolygonSet, role: Role, bead: Bead, layer: u32) -> (V
     (rows.into_iter().filter(|row| !row.is_empty()).collect(), PolygonSet::union_all(&narrow))
 }
 
-/// Fills `area` with lines that take up `density` of it, joined along its border. What joins them
-/// comes on top; [`line_density`] allows for it.
-pub fn fill_sparse(
-    area: &PolygonSet,
-    bead: Bead,
-    layer: InfillLayer,
-    density: f64,
-    options: &InfillOptions,
-) -> Vec<Path> {
+/// Fills `area` with lines that take up `options.density` of it, joined along its border. What joins
+/// them comes on top; [`true_lines`] allows for it.
+pub fn fill_sparse(area: &PolygonSet, bead: Bead, layer: InfillLayer, options: &InfillOptions) -> Vec<Path> {
+    let density = options.density;
     if density <= 0.0 {
         return Vec::new();
     }
@@ -134,35 +129,67 @@ fn pattern_pieces(
     }
 }
 
-/// Lines are laid no farther apart than this, in multiples of the distance without joins: skins
-/// need something to lie on.
+/// Lines are laid this much farther apart or closer than the density alone says at most: skins need
+/// something to lie on.
 const FARTHEST_APART: f64 = 1.25;
 
-/// The density at which to lay lines so that together with what joins them they take up
-/// `options.density` of the given areas, which stand for the whole print.
+/// Density counts as met within this share.
+const CLOSE_ENOUGH: f64 = 0.01;
+
+/// Distances of lines and longest joins tried. Lines are counted from the bed's origin, so that a part
+/// gets a few more or less with every change; the best try is taken.
+const TRIES: usize = 6;
+
+/// How to lay lines so that together with what joins them they take up `options.density` of the given
+/// areas, which stand for the whole print.
 ///
-/// Lines fill the place for their centres, a little less than the area. Joins follow the border and
-/// hardly depend on the lines' distance: what they add is measured once and taken off.
-pub fn line_density(areas: &[PolygonSet], bead: Bead, options: &InfillOptions) -> f64 {
+/// Lines are laid farther apart or closer until they do; where that would be too far, the longest joins
+/// are left out.
+pub fn true_lines(areas: &[PolygonSet], bead: Bead, options: &InfillOptions) -> InfillOptions {
     let wanted = options.density;
     let total: f64 = areas.iter().map(PolygonSet::area).sum();
-    let reached: f64 = areas.iter().map(|a| centre_lines(a, bead, options.overlap).area()).sum();
-    if reached <= 0.0 || wanted <= 0.0 {
-        return wanted;
+    let mut lines = options.clone();
+    if total <= 0.0 || wanted <= 0.0 {
+        return lines;
     }
-    let apart = InfillOptions { anchor_max: 0.0, ..options.clone() };
-    let length = |options: &InfillOptions| -> f64 {
-        let laid = |(area, index): (&PolygonSet, u32)| {
-            // One height is as good as another: only joins are looked at.
-            fill_sparse(area, bead, InfillLayer { index, z: f64::from(index) }, wanted, options)
-        };
-        areas.iter().zip(0..).flat_map(laid).map(|path| path.length()).sum()
+    let (least, most) = (wanted / FARTHEST_APART, (wanted * FARTHEST_APART).min(1.0));
+    let share_of =
+        |lines: &InfillOptions| laid_length(areas, lines, bead) * bead.spacing() / (wanted * total);
+    let mut best = (f64::INFINITY, options.clone());
+    let mut offer = |lines: &InfillOptions, share: f64| {
+        if (share - 1.0).abs() < best.0 {
+            best = ((share - 1.0).abs(), lines.clone());
+        }
     };
-    let lines = match options.pattern {
-        // The outermost loop joins the others to the walls.
-        InfillPattern::Concentric => wanted * reached / bead.spacing(),
-        _ => length(&apart),
+    let mut share = share_of(&lines);
+    offer(&lines, share);
+    for _ in 0..TRIES {
+        let next = (lines.density / share).clamp(least, most);
+        if (share - 1.0).abs() < CLOSE_ENOUGH || next == lines.density {
+            break;
+        }
+        lines.density = next;
+        share = share_of(&lines);
+        offer(&lines, share);
+    }
+    if lines.density == least && share > 1.0 + CLOSE_ENOUGH {
+        let (mut low, mut high) = (0.0, options.anchor_max);
+        for _ in 0..TRIES {
+            lines.anchor_max = (low + high) / 2.0;
+            let share = share_of(&lines);
+            offer(&lines, share);
+            if share > 1.0 { high = lines.anchor_max } else { low = lines.anchor_max }
+        }
+    }
+    best.1
+}
+
+/// Length of the lines and joins in these areas, mm; the areas' heights are spread over a period of the
+/// gyroid, whose curves are not equally long at all heights.
+fn laid_length(areas: &[PolygonSet], lines: &InfillOptions, bead: Bead) -> f64 {
+    let step = gyroid::LENGTH_PER_PERIOD * bead.spacing() / lines.density / areas.len() as f64;
+    let laid = |(area, index): (&PolygonSet, u32)| {
+        fill_sparse(area, bead, InfillLayer { index, z: step * f64::from(index) }, lines)
     };
-    let joins = (length(options) - lines) * bead.spacing() / total;
-    ((wanted - joins) * total / reached).max(wanted / FARTHEST_APART)
+    areas.iter().zip(0..).flat_map(laid).map(|path| path.length()).sum()
 }

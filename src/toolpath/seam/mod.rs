@@ -31,8 +31,8 @@ crate::options! {
     pub struct SeamOptions {
         /// Which place of a loop becomes its start and end.
         position: SeamPosition = SeamPosition::Aligned, "Seam position";
-        /// How much of a loop's end is left out, so that it does not press on its start; 0 closes it
-        /// fully.
+        /// How much of a loop's end is left out, so that it does not press on its start, up to a
+        /// hundredth of the loop; 0 closes it fully.
         gap: f64 = 0.05, "Seam gap", "mm", 0.0..=1.0;
     }
 }
