@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::layers::LayerStack;
 use crate::mesh::Mesh;
+use crate::polygon::strips::Strips;
 use crate::polygon::{DVec2, PolygonSet, dvec2};
-use crate::region::overhang::Strips;
 use crate::sort::StableSort;
 
 /// Facets are looked at in patches of about this area, mm2, each touched wholly or not at all.

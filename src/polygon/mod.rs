@@ -9,10 +9,12 @@
 pub mod boolean;
 pub mod grid;
 pub mod hull;
+pub mod island;
 pub mod measure;
 pub mod offset;
 pub mod raycast;
 pub mod simplify;
+pub mod strips;
 pub mod trig;
 
 use crate::sort::StableSort;

@@ -4,8 +4,8 @@
 //! of their length ends on the layer below at both ends is taken, of equal ones that with the
 //! shortest span. A piece with most of its length held at one end or none is no bridge.
 
-use super::overhang::Strips;
 use crate::polygon::measure::Bounds;
+use crate::polygon::strips::Strips;
 use crate::polygon::trig::sin_cos;
 use crate::polygon::{DVec2, Join, Polygon, PolygonSet};
 use crate::sort::StableSort;

@@ -3,9 +3,9 @@
 //! Source: [Karim] K. F. Karim et al., "Feature-Based Support Generation for Optimum Part
 //! Deposition Orientation in FDM", equations (2) to (8). Plate supports share [`need`].
 
-use crate::polygon::measure::Bounds;
+use crate::polygon::island::{Island, inner_point};
 use crate::polygon::trig::tan;
-use crate::polygon::{DVec2, Join, Polygon, PolygonSet, dvec2};
+use crate::polygon::{Join, PolygonSet};
 
 /// Growth is mitred: round joins would let the corners of a frustum that holds itself poke out.
 const MITRE: Join = Join::Mitre { limit: 5.0 };
@@ -68,95 +68,10 @@ fn components_reaching(overhang: PolygonSet, outside: &PolygonSet) -> PolygonSet
     PolygonSet::canonical(contours.collect())
 }
 
-/// One connected component with its box, for questions that most components answer by the box.
-#[derive(Debug, Clone)]
-pub struct Island {
-    /// The component.
-    pub polygon: Polygon,
-    /// The box around it.
-    pub bounds: Bounds,
-}
-
-impl Island {
-    /// The connected components of an area.
-    pub fn all_of(area: &PolygonSet) -> Vec<Island> {
-        let boxed = |polygon: Polygon| {
-            let bounds = polygon.outer.bounds()?;
-            Some(Island { polygon, bounds })
-        };
-        area.islands().into_iter().filter_map(boxed).collect()
-    }
-
-    /// Whether `p` lies inside (points on the border may fall either way).
-    pub fn contains(&self, p: DVec2) -> bool {
-        self.bounds.contains(Bounds { min: p, max: p })
-            && self.polygon.outer.contains(p)
-            && !self.polygon.holes.iter().any(|hole| hole.contains(p))
-    }
-
-    /// The first of the islands that holds `p`.
-    pub fn around(islands: &[Island], p: DVec2) -> Option<usize> {
-        islands.iter().position(|island| island.contains(p))
-    }
-}
-
-/// The edges of an area sorted into level strips, for many questions whether a point is inside.
-#[derive(Debug)]
-pub struct Strips {
-    low: f64,
-    per_mm: f64,
-    edges: Vec<Vec<(DVec2, DVec2)>>,
-}
-
-impl Strips {
-    /// Sorts the edges of `area`.
-    pub fn new(area: &PolygonSet) -> Strips {
-        let (low, height) = area.bounds().map_or((0.0, 0.0), |b| (b.min.y, b.size().y));
-        let count = (area.vertex_count() / 4).clamp(1, 512);
-        let mut strips =
-            Strips { low, per_mm: count as f64 / height.max(1e-3), edges: vec![Vec::new(); count] };
-        for (a, b) in area.contours().iter().flat_map(|c| c.edges()) {
-            for strip in strips.of(a.y.min(b.y))..=strips.of(a.y.max(b.y)) {
-                strips.edges[strip].push((a, b));
-            }
-        }
-        strips
-    }
-
-    fn of(&self, y: f64) -> usize {
-        (((y - self.low) * self.per_mm) as usize).min(self.edges.len() - 1)
-    }
-
-    /// Whether `p` lies inside (points on the border may fall either way).
-    pub fn contain(&self, p: DVec2) -> bool {
-        let crosses = |&&(a, b): &&(DVec2, DVec2)| {
-            (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) * (b.x - a.x) / (b.y - a.y)
-        };
-        self.edges[self.of(p.y)].iter().filter(crosses).count() % 2 == 1
-    }
-}
-
-/// A point well inside: in the middle of the widest stretch of the level line that halves the
-/// tallest gap between two neighbouring vertex heights. `None` for a polygon without height.
-pub fn inner_point(polygon: &Polygon) -> Option<DVec2> {
-    let contours = || std::iter::once(&polygon.outer).chain(&polygon.holes);
-    let mut heights: Vec<f64> = contours().flat_map(|c| c.points.iter().map(|p| p.y)).collect();
-    heights.sort_by(f64::total_cmp);
-    let tallest = heights.windows(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
-    let y = (tallest[0] + tallest[1]) / 2.0;
-    let crossing = |(a, b): (DVec2, DVec2)| {
-        ((a.y > y) != (b.y > y)).then(|| a.x + (y - a.y) * (b.x - a.x) / (b.y - a.y))
-    };
-    let mut crossings: Vec<f64> = contours().flat_map(|c| c.edges().filter_map(crossing)).collect();
-    crossings.sort_by(f64::total_cmp);
-    let widest = crossings.chunks_exact(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
-    Some(dvec2((widest[0] + widest[1]) / 2.0, y))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::polygon::Contour;
+    use crate::polygon::{Contour, dvec2};
 
     fn rectangle(x0: f64, y0: f64, x1: f64, y1: f64) -> PolygonSet {
         PolygonSet::rectangle(dvec2(x0, y0), dvec2(x1, y1))
@@ -224,13 +139,5 @@ mod tests {
         let found = need(&above, &below, 0.2, 0.2);
         // 2.8 x 10 at the right; the strip 0.3 wide above is thinner than 0.4 and vanishes.
         assert!((found.area() - 28.0).abs() < 0.1, "{}", found.area());
-    }
-
-    #[test]
-    fn an_inner_point_lies_inside_also_of_a_ring() {
-        let ring = rectangle(0.0, 0.0, 10.0, 10.0).difference(&rectangle(1.0, 1.0, 9.0, 9.0));
-        let ring = ring.islands().remove(0);
-        let p = inner_point(&ring).unwrap();
-        assert!(Island::all_of(&ring.clone().into_set())[0].contains(p), "{p}");
     }
 }

@@ -11,9 +11,10 @@ use super::plates::{self, Line, Plate, lines_at};
 use super::report::Uncovered;
 use super::section::{downward, ordered};
 use super::spans::{self, Span};
+use crate::polygon::island::{Island, inner_point};
 use crate::polygon::measure::Bounds;
 use crate::polygon::{Contour, DVec2, Join, Polygon, PolygonSet, dvec2};
-use crate::region::overhang::{self, Island};
+use crate::region::overhang;
 use crate::slice::{Axis, slice_triangles};
 use crate::sort::StableSort;
 
@@ -75,7 +76,7 @@ pub(super) fn needs(job: &Job) -> Vec<Need> {
 fn afloat(area: &PolygonSet, above: &PolygonSet, below: &PolygonSet) -> Vec<PolygonSet> {
     let islands = Island::all_of(above);
     let begins_in_air = |need: &Polygon| {
-        let whole = overhang::inner_point(need).and_then(|p| Island::around(&islands, p));
+        let whole = inner_point(need).and_then(|p| Island::around(&islands, p));
         // An island that rests on the part below is mostly not in need; most others are.
         let mostly = |i: &usize| need.area() > 0.5 * islands[*i].polygon.area();
         let set = |i: usize| islands[i].polygon.clone().into_set();
@@ -243,8 +244,7 @@ fn request(job: &Job, need: &Need, spot: &PolygonSet, turned: bool) -> Option<Re
     let room = if inner.is_empty() { room } else { inner };
     let centre = bounds.centre();
     let distance = |p: &(Bounds, DVec2)| p.1.distance_squared(centre);
-    let places =
-        room.islands().into_iter().filter_map(|i| Some((i.outer.bounds()?, overhang::inner_point(&i)?)));
+    let places = room.islands().into_iter().filter_map(|i| Some((i.outer.bounds()?, inner_point(&i)?)));
     let (extent, point) = places.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
     let size = extent.size();
     let axis = if (size.x >= size.y) != turned { Axis::Y } else { Axis::X };
@@ -345,7 +345,7 @@ pub(super) fn report_uncovered(job: &Job, needs: &[Need], plates: &[Plate]) -> V
         let spots = spots(&hanging(need, plates, reach(job)));
         let layer = need.layer as u32 + 1;
         let report = |spot: &PolygonSet| {
-            let at = spot.islands().first().and_then(overhang::inner_point)?.to_array();
+            let at = spot.islands().first().and_then(inner_point)?.to_array();
             Some(Uncovered { layer, at, area_mm2: spot.area() })
         };
         spots.iter().filter_map(report).collect::<Vec<_>>()

@@ -3,8 +3,10 @@
 //! Source: [Karim] equations (9) to (12). A_k is the part's section in layer k, S_k the support
 //! region, both seen from above; layers are counted from the bed.
 
+use crate::polygon::island::{Island, inner_point};
+use crate::polygon::strips::Strips;
 use crate::polygon::{Contour, DVec2, Polygon, PolygonSet, dvec2};
-use crate::region::overhang::{self, Island, Strips};
+use crate::region::overhang;
 
 /// Slits and slivers of a support region that are thinner than this, mm, are rounding artefacts of
 /// borders that ran along each other: three grid steps.
@@ -142,13 +144,11 @@ impl Descent {
     /// inner point of what they share.
     fn join_to(&mut self, part: &Part, others: &[Part], shared: impl Fn(&Part) -> Vec<Polygon>) {
         let holds = |point: DVec2| move |other: &&Part| other.island.contains(point);
-        if let Some(other) =
-            overhang::inner_point(&part.island.polygon).and_then(|p| others.iter().find(holds(p)))
-        {
+        if let Some(other) = inner_point(&part.island.polygon).and_then(|p| others.iter().find(holds(p))) {
             return self.structures.join(part.node, other.node);
         }
         for other in others.iter().filter(|other| other.island.bounds.is_near(part.island.bounds, 0.0)) {
-            let points = shared(other).into_iter().filter_map(|piece| overhang::inner_point(&piece));
+            let points = shared(other).into_iter().filter_map(|piece| inner_point(&piece));
             if points.into_iter().any(|p| other.island.contains(p)) {
                 self.structures.join(part.node, other.node);
             }

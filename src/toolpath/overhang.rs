@@ -3,8 +3,8 @@
 use super::LayerPaths;
 use super::travel::Way;
 use crate::polygon::grid::EdgeGrid;
+use crate::polygon::strips::Strips;
 use crate::polygon::{DVec2, Join, PolygonSet};
-use crate::region::overhang::Strips;
 use crate::region::{Path, Role, Width};
 
 /// Steps of the share that hangs over: each has its own speed.

@@ -8,9 +8,9 @@
 use super::{FittedBead, Strips};
 use crate::polygon::grid::EdgeGrid;
 use crate::polygon::measure::Bounds;
+use crate::polygon::strips::Strips as Inside;
 use crate::polygon::{Contour, DVec2, PolygonSet};
 use crate::region::Path;
-use crate::region::overhang::Strips as Inside;
 use crate::toolpath::medial::{Sample, ring};
 
 /// Distance of the points at which a loop's width is found, mm: about a bead's width.

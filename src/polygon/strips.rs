@@ -1,0 +1,39 @@
+//! Many questions whether a point lies in one area.
+
+use super::{DVec2, PolygonSet};
+
+/// The edges of an area sorted into level strips, for many questions whether a point is inside.
+#[derive(Debug)]
+pub struct Strips {
+    low: f64,
+    per_mm: f64,
+    edges: Vec<Vec<(DVec2, DVec2)>>,
+}
+
+impl Strips {
+    /// Sorts the edges of `area`.
+    pub fn new(area: &PolygonSet) -> Strips {
+        let (low, height) = area.bounds().map_or((0.0, 0.0), |b| (b.min.y, b.size().y));
+        let count = (area.vertex_count() / 4).clamp(1, 512);
+        let mut strips =
+            Strips { low, per_mm: count as f64 / height.max(1e-3), edges: vec![Vec::new(); count] };
+        for (a, b) in area.contours().iter().flat_map(|c| c.edges()) {
+            for strip in strips.of(a.y.min(b.y))..=strips.of(a.y.max(b.y)) {
+                strips.edges[strip].push((a, b));
+            }
+        }
+        strips
+    }
+
+    fn of(&self, y: f64) -> usize {
+        (((y - self.low) * self.per_mm) as usize).min(self.edges.len() - 1)
+    }
+
+    /// Whether `p` lies inside (points on the border may fall either way).
+    pub fn contain(&self, p: DVec2) -> bool {
+        let crosses = |&&(a, b): &&(DVec2, DVec2)| {
+            (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) * (b.x - a.x) / (b.y - a.y)
+        };
+        self.edges[self.of(p.y)].iter().filter(crosses).count() % 2 == 1
+    }
+}
