@@ -15,6 +15,8 @@ pub(super) struct LayerStack {
     pub(super) slice_z: Vec<f64>,
     /// Neighbouring layers with one section, from the bed up.
     pub(super) runs: Vec<Range<usize>>,
+    /// The run of each layer.
+    run_of: Vec<u32>,
 }
 
 impl LayerStack {
@@ -28,13 +30,35 @@ impl LayerStack {
         let slice_z: Vec<f64> =
             plan_layers(height, &options).iter().map(|layer| bottom + layer.slice_z).collect();
         let runs = runs_between(&changes(mesh, &slice_z));
-        LayerStack { height, slice_z, runs }
+        let numbered = runs.iter().zip(0..).flat_map(|(run, number)| run.clone().map(move |_| number));
+        let run_of = numbered.collect();
+        LayerStack { height, slice_z, runs, run_of }
     }
 
     /// The run that the layer belongs to.
     pub(super) fn run_of(&self, layer: usize) -> usize {
-        self.runs.partition_point(|run| run.end <= layer)
+        self.run_of[layer] as usize
     }
+
+    /// How many planes lie at `z` or below.
+    pub(super) fn planes_up_to(&self, z: f64) -> usize {
+        planes_up_to(&self.slice_z, z)
+    }
+}
+
+/// How many of the planes lie at `z` or below: guessed, as they are evenly spaced, and put right.
+fn planes_up_to(slice_z: &[f64], z: f64) -> usize {
+    let n = slice_z.len();
+    let [first, .., last] = *slice_z else { return slice_z.partition_point(|&h| h <= z) };
+    // Far below and above, the cast ends at 0 and n.
+    let mut found = (((z - first) / (last - first) * (n - 1) as f64) as usize).min(n);
+    while found > 0 && slice_z[found - 1] > z {
+        found -= 1;
+    }
+    while found < n && slice_z[found] <= z {
+        found += 1;
+    }
+    found
 }
 
 /// Whether the section at plane k may differ from the one below it: a vertex lies between the two
@@ -42,7 +66,7 @@ impl LayerStack {
 fn changes(mesh: &Mesh, slice_z: &[f64]) -> Vec<bool> {
     let n = slice_z.len();
     // The first plane above a vertex; a vertex in a plane counts as above it, as for the cuts.
-    let plane_above = |z: f32| slice_z.partition_point(|&h| h <= f64::from(z));
+    let plane_above = |z: f32| planes_up_to(slice_z, f64::from(z));
     let mut starts = vec![0i32; n + 1];
     for t in 0..mesh.triangles.len() {
         let corners = mesh.corners(t);

@@ -78,7 +78,7 @@ fn add_facet(corners: [DVec3; 3], normal: DVec3, stack: &LayerStack, patches: &m
     for (i, j, third) in upright.chain(between) {
         let at = middle(i, j, third);
         // The first plane above the patch.
-        let above = stack.slice_z.partition_point(|&h| h <= at.z);
+        let above = stack.planes_up_to(at.z);
         let layer = if normal.z < 0.0 { above.checked_sub(1) } else { Some(above) };
         if let Some(layer) = layer.filter(|&layer| layer < stack.slice_z.len()) {
             let run = stack.run_of(layer) as u32;

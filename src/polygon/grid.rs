@@ -195,17 +195,26 @@ impl EdgeGrid {
 
     /// The point on an edge nearest to `p`, if any is within `reach` mm.
     pub fn nearest(&self, p: DVec2, reach: f64) -> Option<DVec2> {
+        self.nearest_foot(p, reach).map(|(_, foot, _)| foot)
+    }
+
+    /// The edge nearest to `p`, if any is within `reach` mm: squared distance and place in the list.
+    pub fn nearest_edge(&self, p: DVec2, reach: f64) -> Option<(f64, usize)> {
+        self.nearest_foot(p, reach).map(|(squared, _, index)| (squared, index as usize))
+    }
+
+    fn nearest_foot(&self, p: DVec2, reach: f64) -> Option<(f64, DVec2, u32)> {
         let (low, high) = (self.frame.column_and_row(p - reach), self.frame.column_and_row(p + reach));
-        let mut best: Option<DVec2> = None;
+        let mut best: Option<(f64, DVec2, u32)> = None;
         let mut least = reach * reach;
         for row in low.1..=high.1 {
             for column in low.0..=high.0 {
                 let place = self.frame.number(column, row);
-                for &(a, b, _) in &self.edges[self.starts[place] as usize..self.starts[place + 1] as usize] {
+                for &(a, b, index) in self.in_cell(place) {
                     let foot = closest_on_segment(p, a, b);
                     let distance = foot.distance_squared(p);
                     if distance <= least {
-                        (best, least) = (Some(foot), distance);
+                        (best, least) = (Some((distance, foot, index)), distance);
                     }
                 }
             }

@@ -5,6 +5,7 @@ pub mod bridge;
 pub mod first_layer;
 pub mod overhang;
 mod path;
+mod reach;
 pub mod shell;
 
 use crate::polygon::PolygonSet;

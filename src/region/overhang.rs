@@ -3,12 +3,16 @@
 //! Source: [Karim] K. F. Karim et al., "Feature-Based Support Generation for Optimum Part
 //! Deposition Orientation in FDM", equations (2) to (8). Plate supports share [`need`].
 
+use super::reach::Reach;
 use crate::polygon::island::{Island, inner_point};
 use crate::polygon::trig::tan;
 use crate::polygon::{Join, PolygonSet};
 
 /// Growth is mitred: round joins would let the corners of a frustum that holds itself poke out.
-const MITRE: Join = Join::Mitre { limit: 5.0 };
+const MITRE: Join = Join::Mitre { limit: MITRE_LIMIT };
+
+/// See [`MITRE`].
+const MITRE_LIMIT: f64 = 5.0;
 
 /// What snapping may add to the step between two contours, mm: half a grid diagonal for each of
 /// the two sections and for the grown one. Without it a wall that leans by exactly the self-support
@@ -35,11 +39,19 @@ pub fn externally_supported(above: &PolygonSet, below: &PolygonSet, step: f64) -
     if above == below || above.is_empty() {
         return PolygonSet::EMPTY;
     }
-    let outside = above.difference(&permissible_overhang(below, step));
-    if outside.is_empty() {
+    let reach = Reach::new(below, step + SNAP_SLACK_MM, MITRE_LIMIT);
+    if reach.holds(above) {
         return PolygonSet::EMPTY;
     }
-    components_reaching(above.difference(below), &outside)
+    let overhang = above.difference(below);
+    let islands = Island::all_of(&overhang);
+    let mut reaching: Vec<bool> = islands.iter().map(|island| reach.is_left_by(island)).collect();
+    let is_open = |(island, reaches): (&Island, &bool)| !reaches && !reach.holds_island(island);
+    if islands.iter().zip(&reaching).any(is_open) {
+        // Distances leave it open: the growth itself decides.
+        mark_reaching(&islands, &above.difference(&permissible_overhang(below, step)), &mut reaching);
+    }
+    components(overhang, islands, &reaching)
 }
 
 /// What of `above` hangs past the permissible overhang of `below` and is wider than twice
@@ -51,20 +63,27 @@ pub fn need(above: &PolygonSet, below: &PolygonSet, step: f64, opening: f64) -> 
     above.difference(&permissible_overhang(below, step)).opened(opening, MITRE)
 }
 
-/// The components of `overhang` that hold a piece of `outside`, which lies within `overhang`.
-fn components_reaching(overhang: PolygonSet, outside: &PolygonSet) -> PolygonSet {
-    let islands = Island::all_of(&overhang);
-    if islands.len() == 1 {
-        return overhang;
-    }
-    let mut reaching = vec![false; islands.len()];
+/// Marks the islands of an overhang that hold a piece of `outside`, which lies within them.
+fn mark_reaching(islands: &[Island], outside: &PolygonSet, reaching: &mut [bool]) {
     for piece in outside.islands() {
-        if let Some(i) = inner_point(&piece).and_then(|p| Island::around(&islands, p)) {
+        let point = inner_point(&piece);
+        let around = match islands.len() {
+            1 => Some(0),
+            _ => point.and_then(|p| Island::around(islands, p)),
+        };
+        if let Some(i) = around {
             reaching[i] = true;
         }
     }
-    let reaching = islands.into_iter().zip(reaching).filter(|(_, reaches)| *reaches);
-    let contours = reaching.flat_map(|(island, _)| island.polygon.into_set().into_contours());
+}
+
+/// The marked islands of `overhang`.
+fn components(overhang: PolygonSet, islands: Vec<Island>, marked: &[bool]) -> PolygonSet {
+    if !marked.contains(&false) {
+        return overhang;
+    }
+    let marked = islands.into_iter().zip(marked).filter(|(_, marked)| **marked);
+    let contours = marked.flat_map(|(island, _)| island.polygon.into_set().into_contours());
     PolygonSet::canonical(contours.collect())
 }
 

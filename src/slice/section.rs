@@ -73,7 +73,8 @@ impl Crossings {
 fn planes_crossed(mesh: &Mesh, axis: Axis, heights: &[f64], triangle: u32) -> std::ops::Range<usize> {
     let [a, b, c] = mesh.corners(triangle as usize).map(|v| axis.height(v));
     let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-    if low == high {
+    let (Some(&lowest), Some(&highest)) = (heights.first(), heights.last()) else { return 0..0 };
+    if low == high || f64::from(high) < lowest || highest <= f64::from(low) {
         return 0..0;
     }
     let first = heights.partition_point(|&h| h <= f64::from(low));

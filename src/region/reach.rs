@@ -1,0 +1,194 @@
+//! How far an area reaches past another one, by distances alone: most layers of most parts are settled
+//! without growing anything.
+
+use crate::polygon::grid::EdgeGrid;
+use crate::polygon::island::Island;
+use crate::polygon::simplify::squared_distance_to_segment;
+use crate::polygon::strips::Strips;
+use crate::polygon::{Contour, DVec2, Join, PolygonSet};
+
+/// By so much, mm, a point must lie nearer than allowed to be surely within: rounding to the grid may
+/// bring the grown border nearer by less.
+const NEARER_MM: f64 = 1e-4;
+
+/// By so much, mm, a point must lie farther than allowed to be surely outside. Less could be a sliver
+/// that booleans drop.
+const FARTHER_MM: f64 = 0.005;
+
+/// Edges are halved at most so often to see whether they stay within reach.
+const HALVINGS: u32 = 6;
+
+/// An area and the mitred growth of it that another one may cover.
+pub(super) struct Reach<'a> {
+    below: &'a PolygonSet,
+    edges: Vec<(DVec2, DVec2)>,
+    grid: EdgeGrid,
+    inside: std::cell::OnceCell<Strips>,
+    step: f64,
+    mitre_limit: f64,
+}
+
+impl<'a> Reach<'a> {
+    /// The growth of `below` by `step` mm, mitred up to `mitre_limit` times that.
+    pub(super) fn new(below: &'a PolygonSet, step: f64, mitre_limit: f64) -> Reach<'a> {
+        let edges: Vec<(DVec2, DVec2)> = below.contours().iter().flat_map(Contour::edges).collect();
+        let grid = EdgeGrid::new(&edges);
+        Reach { below, edges, grid, inside: Default::default(), step, mitre_limit }
+    }
+
+    /// Whether surely nothing of `area` lies outside the growth. Without a doubt only: false says nothing.
+    ///
+    /// An area that reaches out does so with its border, or it covers a hole that the growth leaves.
+    pub(super) fn holds(&self, area: &PolygonSet) -> bool {
+        self.holds_border(area.contours()) && self.covers_no_hole(area)
+    }
+
+    /// The same for one connected part.
+    pub(super) fn holds_island(&self, island: &Island) -> bool {
+        let polygon = &island.polygon;
+        self.holds_border(std::iter::once(&polygon.outer).chain(&polygon.holes))
+            && self.covers_no_hole(&polygon.clone().into_set())
+    }
+
+    fn holds_border<'c>(&self, contours: impl IntoIterator<Item = &'c Contour>) -> bool {
+        let reach = self.step - NEARER_MM;
+        let mut edges = contours.into_iter().flat_map(Contour::edges);
+        reach > 0.0 && edges.all(|(a, b)| self.holds_edge(a, b, reach, HALVINGS))
+    }
+
+    /// Whether a corner of `island` surely lies outside the growth.
+    pub(super) fn is_left_by(&self, island: &Island) -> bool {
+        let contours = std::iter::once(&island.polygon.outer).chain(&island.polygon.holes);
+        contours.flat_map(|c| &c.points).any(|&p| self.is_surely_outside(p))
+    }
+
+    fn holds_edge(&self, a: DVec2, b: DVec2, reach: f64, halvings: u32) -> bool {
+        let near = [a, b].map(|p| self.grid.nearest_edge(p, reach));
+        let within = |p: DVec2, i: usize| {
+            let (c, d) = self.edges[i];
+            squared_distance_to_segment(p, c, d) <= reach * reach
+        };
+        let held = match near {
+            // What is near an edge is convex.
+            [Some((_, i)), Some((_, j))] => within(b, i) || within(a, j),
+            [None, _] if !self.contains(a) => return false,
+            [_, None] if !self.contains(b) => return false,
+            _ => false,
+        };
+        // No point of the edge is farther from the area than this.
+        let away = near.map(|found| found.map_or(-reach, |(squared, _)| squared.sqrt()));
+        if held || (away[0] + away[1] + a.distance(b)) / 2.0 <= reach {
+            return true;
+        }
+        if near.contains(&None) && !self.grid.crosses(a, b) {
+            return true;
+        }
+        let middle = a.lerp(b, 0.5);
+        halvings > 0
+            && self.holds_edge(a, middle, reach, halvings - 1)
+            && self.holds_edge(middle, b, reach, halvings - 1)
+    }
+
+    /// Whether no hole that stays open in the growth lies within `area`, whose border is in no such hole.
+    fn covers_no_hole(&self, area: &PolygonSet) -> bool {
+        let open = |hole: &&Contour| -hole.signed_area() > std::f64::consts::PI * self.step * self.step;
+        let Some(bounds) = area.bounds() else { return true };
+        let near = |hole: &&Contour| hole.bounds().is_some_and(|b| b.is_near(bounds, 0.0));
+        let mut holes = self
+            .below
+            .contours()
+            .iter()
+            .filter(|c| c.signed_area() < 0.0)
+            .filter(near)
+            .filter(open)
+            .peekable();
+        if holes.peek().is_none() {
+            return true;
+        }
+        let covered = Strips::new(area);
+        let limit = self.mitre_limit;
+        holes.all(|hole| {
+            let left = PolygonSet::canonical(vec![hole.reversed()]).offset(-self.step, Join::Mitre { limit });
+            !left.contours().iter().any(|c| covered.contain(c.points[0]))
+        })
+    }
+
+    fn is_surely_outside(&self, p: DVec2) -> bool {
+        let far = self.step + FARTHER_MM;
+        self.grid.nearest_edge(p, far).is_none() && !self.may_be_in_mitre(p, far) && !self.contains(p)
+    }
+
+    /// Whether `p` may lie in the growth of a corner: behind neither of its grown edges.
+    fn may_be_in_mitre(&self, p: DVec2, far: f64) -> bool {
+        let around = self.mitre_limit * far;
+        if self.grid.nearest_edge(p, around).is_none() {
+            return false;
+        }
+        self.below.contours().iter().any(|contour| {
+            let points = &contour.points;
+            let n = points.len();
+            (0..n).filter(|&i| points[i].distance_squared(p) <= around * around).any(|i| {
+                let beyond = |a: DVec2, b: DVec2| -(b - a).normalize_or_zero().perp_dot(p - points[i]);
+                let (before, after) = (points[(i + n - 1) % n], points[(i + 1) % n]);
+                beyond(before, points[i]) <= far && beyond(points[i], after) <= far
+            })
+        })
+    }
+
+    fn contains(&self, p: DVec2) -> bool {
+        self.inside.get_or_init(|| Strips::new(self.below)).contain(p)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::polygon::dvec2;
+    use proptest::prelude::*;
+
+    const LIMIT: f64 = 5.0;
+
+    /// A star of any shape around (5, 5), with a hole where it is wide enough.
+    fn star() -> impl Strategy<Value = PolygonSet> {
+        prop::collection::vec(1.0..5.0f64, 3..24).prop_map(|radii| {
+            let at = |(i, r): (usize, &f64)| {
+                let (sin, cos) =
+                    crate::polygon::trig::sin_cos(std::f64::consts::TAU * i as f64 / radii.len() as f64);
+                dvec2(5.0, 5.0) + dvec2(cos, sin) * *r
+            };
+            let outer =
+                PolygonSet::from_contours(vec![Contour::new(radii.iter().enumerate().map(at).collect())]);
+            let hole = outer.offset(-1.2, Join::Mitre { limit: 2.0 });
+            outer.difference(&hole)
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_settled_is_what_the_growth_says(below in star(), above in star(), step in 0.05..3.0f64) {
+            let grown = below.offset(step, Join::Mitre { limit: LIMIT });
+            let reach = Reach::new(&below, step, LIMIT);
+            let outside = above.difference(&grown);
+            prop_assert!(!reach.holds(&above) || outside.is_empty(), "{outside:?}");
+            for island in Island::all_of(&above.difference(&below)) {
+                let left = island.polygon.clone().into_set().difference(&grown);
+                prop_assert!(!reach.is_left_by(&island) || !left.is_empty(), "{island:?}");
+                prop_assert!(!reach.holds_island(&island) || left.is_empty(), "{island:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn steps_within_reach_are_held_and_longer_ones_leave() {
+        let square = |r: f64| PolygonSet::rectangle(dvec2(-r, -r), dvec2(r, r));
+        let ring = |r: f64| square(20.0).difference(&square(r));
+        let (below, above) = (ring(5.0), ring(4.9));
+        assert!(Reach::new(&below, 0.2, LIMIT).holds(&above));
+        // A ceiling over the hole has no border of its own.
+        assert!(!Reach::new(&below, 0.2, LIMIT).holds(&square(20.0)));
+        assert!(!Reach::new(&below, 0.09, LIMIT).holds(&above));
+        let step = above.difference(&below);
+        assert!(Reach::new(&below, 0.05, LIMIT).is_left_by(&Island::all_of(&step)[0]));
+        assert!(!Reach::new(&below, 0.1, LIMIT).is_left_by(&Island::all_of(&step)[0]));
+    }
+}
