@@ -1,5 +1,6 @@
 //! A slow twin of the support volumes on a grid of pixels, written from [Karim]
-//! alone: no polygon operation of the engine is used, only the loops of its cuts for the growth.
+//! alone: no polygon operation of the engine is used, only the loops of its cuts, for the growth and to see
+//! strips thinner than a pixel.
 
 mod orientation_shapes;
 
@@ -14,8 +15,11 @@ use orientation_shapes::{
 
 const LAYER: f64 = 0.8;
 
-/// An eighth of the layer height is too wide: strips of steep walls are thinner.
+/// An eighth of the layer height is too wide for the strips of steep walls.
 const PIXEL: f64 = LAYER / 32.0;
+
+/// An overhang is looked for this far beside the borders: two steps of the engine's grid, mm.
+const BESIDE: f64 = 2e-4;
 
 /// The part as pixels: for each layer, row by row.
 struct Grid {
@@ -91,15 +95,23 @@ impl Grid {
         mask
     }
 
-    /// Marks all of `overhang` that hangs together with a pixel outside `reach`.
-    fn supported(&self, overhang: &[bool], reach: &[bool]) -> Vec<bool> {
+    /// Marks all of `overhang` that hangs together with a pixel outside `reach`, be it by strips thinner than
+    /// a pixel, which `beads` follow.
+    fn supported(&self, overhang: &[bool], reach: &[bool], beads: &Beads) -> Vec<bool> {
         let mut found = vec![false; overhang.len()];
         let mut open: Vec<usize> = (0..overhang.len()).filter(|&i| overhang[i] && !reach[i]).collect();
         open.iter().for_each(|&i| found[i] = true);
+        let mut strung = vec![false; beads.tied.len()];
         while let Some(i) = open.pop() {
-            // The grid has an empty border: neighbours exist.
-            let w = self.width;
-            for j in [i - 1, i + 1, i - w, i + w, i - w - 1, i - w + 1, i + w - 1, i + w + 1] {
+            let mut pixels: Vec<usize> = self.around(i).to_vec();
+            let mut beads_open = beads.at_pixel(i).to_vec();
+            while let Some(bead) = beads_open.pop() {
+                if !std::mem::replace(&mut strung[bead], true) {
+                    beads_open.extend(beads.tied[bead].into_iter().flatten());
+                    pixels.extend(&beads.pixels[bead]);
+                }
+            }
+            for j in pixels {
                 if overhang[j] && !found[j] {
                     found[j] = true;
                     open.push(j);
@@ -107,6 +119,21 @@ impl Grid {
             }
         }
         found
+    }
+
+    /// A pixel and its neighbours; the grid has an empty border, so they exist.
+    fn around(&self, i: usize) -> [usize; 9] {
+        let w = self.width;
+        [i, i - 1, i + 1, i - w, i + w, i - w - 1, i - w + 1, i + w - 1, i + w + 1]
+    }
+
+    fn middle_of(&self, pixel: usize) -> DVec2 {
+        self.low + dvec2((pixel % self.width) as f64 + 0.5, (pixel / self.width) as f64 + 0.5) * PIXEL
+    }
+
+    fn pixel_of(&self, p: DVec2) -> usize {
+        let at = (p - self.low) / PIXEL;
+        at.y as usize * self.width + at.x as usize
     }
 
     /// Volumes of supports and base, mm3.
@@ -120,7 +147,10 @@ impl Grid {
                 let rings: Vec<Vec<DVec2>> = loops[k].0.iter().map(|l| l.points.clone()).collect();
                 let reach = self.permissible(k, &rings, LAYER);
                 let overhang: Vec<bool> = above.iter().zip(below).map(|(a, b)| *a && !b).collect();
-                let esf = self.supported(&overhang, &reach);
+                let rings_above: Vec<Vec<DVec2>> = loops[k + 1].0.iter().map(|l| l.points.clone()).collect();
+                let hangs = |p: DVec2| winding(&rings_above, p) != 0 && winding(&rings, p) == 0;
+                let beads = Beads::new(self, &threads(&rings_above, &rings, hangs), &overhang, hangs);
+                let esf = self.supported(&overhang, &reach, &beads);
                 region.iter_mut().zip(esf).zip(below).for_each(|((s, e), a)| *s = (*s || e) && !a);
             }
             support += region.iter().filter(|s| **s).count();
@@ -128,6 +158,92 @@ impl Grid {
         let base = region.iter().zip(&self.solid[0]).filter(|(s, a)| **s || **a).count();
         let pixel = PIXEL * PIXEL * LAYER;
         (support as f64 * pixel, 5.0 * base as f64 * pixel)
+    }
+}
+
+/// The stretches of both borders along which `above` lies beside them and `below` does not: for each ring
+/// points closer than half a pixel, in order, or `None` where there is no overhang.
+fn threads(
+    above: &[Vec<DVec2>],
+    below: &[Vec<DVec2>],
+    hangs: impl Fn(DVec2) -> bool,
+) -> Vec<Vec<Option<DVec2>>> {
+    let hanging = |p: DVec2| hangs(p).then_some(p);
+    // The part lies to the left of its rings.
+    let along = |ring: &Vec<DVec2>, side: f64| {
+        let n = ring.len();
+        let mut thread = Vec::new();
+        for i in 0..n {
+            let (a, b, c) = (ring[i], ring[(i + 1) % n], ring[(i + 2) % n]);
+            let [left, next] = [b - a, c - b].map(|v| v.normalize_or_zero().perp() * side * BESIDE);
+            let count = (a.distance(b) / (PIXEL / 2.0)).ceil().max(1.0) as u32;
+            let shares = (0..count).map(|k| (f64::from(k) + 0.5) / f64::from(count));
+            thread.extend(shares.map(|share| hanging(a.lerp(b, share) + left)));
+            thread.push(hanging(b + (left + next).normalize_or_zero() * BESIDE));
+        }
+        thread
+    };
+    let inside = above.iter().map(|ring| along(ring, 1.0));
+    inside.chain(below.iter().map(|ring| along(ring, -1.0))).collect()
+}
+
+/// How often the rings run around `p`.
+fn winding(rings: &[Vec<DVec2>], p: DVec2) -> i32 {
+    let edges = rings.iter().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+    let crossed = |(a, b): (&DVec2, &DVec2)| {
+        let right = (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) * (b.x - a.x) / (b.y - a.y);
+        if right { if b.y > a.y { 1 } else { -1 } } else { 0 }
+    };
+    edges.map(crossed).sum()
+}
+
+/// Points of an overhang along its borders, those next to each other tied.
+struct Beads {
+    tied: Vec<[Option<usize>; 2]>,
+    /// The overhanging pixels beside each that the overhang reaches without a break.
+    pixels: Vec<Vec<usize>>,
+    by_pixel: std::collections::BTreeMap<usize, Vec<usize>>,
+}
+
+impl Beads {
+    fn new(
+        grid: &Grid,
+        threads: &[Vec<Option<DVec2>>],
+        overhang: &[bool],
+        hangs: impl Fn(DVec2) -> bool,
+    ) -> Beads {
+        let mut beads = Beads { tied: Vec::new(), pixels: Vec::new(), by_pixel: Default::default() };
+        let is_joined = |p: DVec2, pixel: usize| {
+            let middle = grid.middle_of(pixel);
+            (1..5).all(|k| hangs(p.lerp(middle, f64::from(k) / 5.0)))
+        };
+        let joined = |p: DVec2| {
+            let around = grid.around(grid.pixel_of(p)).into_iter();
+            around.filter(|&pixel| overhang[pixel] && is_joined(p, pixel)).collect()
+        };
+        for thread in threads {
+            let numbers: Vec<Option<usize>> =
+                thread.iter().map(|p| p.map(|p| beads.add(joined(p)))).collect();
+            let n = numbers.len();
+            for (i, number) in numbers.iter().enumerate() {
+                if let Some(bead) = *number {
+                    beads.tied[bead] = [numbers[(i + n - 1) % n], numbers[(i + 1) % n]];
+                }
+            }
+        }
+        beads
+    }
+
+    fn add(&mut self, pixels: Vec<usize>) -> usize {
+        let number = self.tied.len();
+        pixels.iter().for_each(|&pixel| self.by_pixel.entry(pixel).or_default().push(number));
+        self.pixels.push(pixels);
+        self.tied.push([None; 2]);
+        number
+    }
+
+    fn at_pixel(&self, pixel: usize) -> &[usize] {
+        self.by_pixel.get(&pixel).map_or(&[], Vec::as_slice)
     }
 }
 
@@ -206,18 +322,15 @@ fn models() -> Vec<(&'static str, Mesh)> {
     ]
 }
 
-/// Random turns by seed. The twin cannot see that an overhang thinner than a pixel hangs together
-/// with the strip beside it, the engine can. Of the seeds 1 to 6 this leaves one model in each of 3, 4
-/// and 6: hollow with 36 % less support on pixels, ball with 4 % less in two turns. With pixels of a
-/// 128th of the layer hollow agrees again, 1831.3 mm3 on both sides.
-const SEEDS: [u64; 3] = [1, 2, 5];
+/// Random turns by seed.
+const SEEDS: [u64; 6] = [1, 2, 3, 4, 5, 6];
 
 #[test]
 fn volumes_agree_with_the_pixels_within_3_percent() {
     let long = std::env::var_os("FOOTHOLD_LONG").is_some();
     let options = OrientationOptions { layer_height: LAYER, ..OrientationOptions::default() };
-    let mut wrong: Vec<&str> = Vec::new();
-    for seed in SEEDS.into_iter().take(if long { 3 } else { 1 }) {
+    let mut wrong: Vec<String> = Vec::new();
+    for seed in SEEDS.into_iter().take(if long { SEEDS.len() } else { 1 }) {
         let mut random = random_from(seed);
         for (i, (name, mesh)) in models().into_iter().enumerate() {
             let mesh = rotated(&mesh, random_rotation(&mut random));
@@ -232,7 +345,7 @@ fn volumes_agree_with_the_pixels_within_3_percent() {
             );
             let agree = |found: f64, pixels: f64| (found - pixels).abs() <= 0.03 * pixels;
             if !agree(fast.support_mm3, support) || !agree(fast.base_mm3, base) {
-                wrong.push(name);
+                wrong.push(format!("{name} by seed {seed}"));
             }
         }
     }
