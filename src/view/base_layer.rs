@@ -21,6 +21,19 @@ pub fn teeth_items(drawing: &TeethDrawing) -> Vec<Item> {
     items
 }
 
+/// What the marks of [`teeth_items`] mean, in the words of the Learn view.
+pub(super) fn teeth_key(drawing: &TeethDrawing) -> Vec<(Ink, &'static str)> {
+    let all = [
+        (Ink::Outline, "outline as printed"),
+        (Ink::Rail, "rail"),
+        (Ink::Tip, "tip of a tooth"),
+        (Ink::TipOutside, "tip beside the part"),
+        (Ink::Bite, "bite"),
+    ];
+    let beside = drawing.teeth.iter().any(|tooth| tooth.bite <= 0.0);
+    all.into_iter().filter(|(ink, _)| *ink != Ink::TipOutside || beside).collect()
+}
+
 /// The bite, from the outline to the tip, and the tip.
 pub(super) fn tooth_marks(tooth: &Tooth) -> [Item; 2] {
     let ink = if tooth.bite > 0.0 { Ink::Tip } else { Ink::TipOutside };

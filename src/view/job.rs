@@ -2,9 +2,10 @@
 
 use std::fmt;
 
-use super::base_layer::teeth_items;
+use super::base_layer::{teeth_items, teeth_key};
 use super::plane::PlaneDetail;
 use super::scene::Scene;
+use super::svg::Paper;
 use crate::gcode::LayerSummary;
 use crate::gcode::read::{self, ReadLayer};
 use crate::pipeline::{Clock, Job};
@@ -53,8 +54,9 @@ impl Scene {
         let layer = read_alone(sliced.texts.first()?, sliced.meta.summaries.first()?, job);
         let section = slice_mesh(print.mesh(), Axis::Z, &[print.specs()[place].slice_z], 0.0).pop()?;
         let mut scene = Scene::of_layer(&layer, job.bed(), Some(&section.area));
-        if place == 0 {
-            scene.items.extend(print.teeth_drawing().into_iter().flat_map(teeth_items));
+        if let Some(teeth) = print.teeth_drawing().filter(|_| place == 0) {
+            scene.items.extend(teeth_items(teeth));
+            scene = scene.with_key(&teeth_key(teeth), Paper::FILE);
         }
         Some(scene)
     }

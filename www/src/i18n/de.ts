@@ -115,6 +115,8 @@ export const de: Words = {
     layerValue: (layer, total, z) => `Schicht ${layer} von ${total}${z === '' ? '' : `, ${z} mm`}`,
     next: 'Nächste Schicht',
     previous: 'Vorige Schicht',
+    marksHeading: 'Zeichen der Zähne',
+    marks: { outline: 'Umriss, wie er gedruckt wird', rail: 'Schiene', tip: 'Zahnspitze', bite: 'Biss' },
     empty: 'Das Modell slicen, um seine Schichten zu sehen.',
   },
   roles: {

@@ -116,6 +116,9 @@ export const en = {
     layerValue: (layer: number, total: number, z: string) => `Layer ${layer} of ${total}${z === '' ? '' : `, ${z} mm`}`,
     next: 'Next layer',
     previous: 'Previous layer',
+    /** What is drawn over the beads where brim teeth stand. */
+    marksHeading: 'Marks of the teeth',
+    marks: { outline: 'outline as printed', rail: 'rail', tip: 'tip of a tooth', bite: 'bite' },
     empty: 'Slice the model to see its layers.',
   },
   /** What beads are for, by the names of the report. */

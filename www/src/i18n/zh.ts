@@ -113,6 +113,8 @@ export const zh: Words = {
     layerValue: (layer, total, z) => `第 ${layer} 层，共 ${total} 层${z === '' ? '' : `，${z} mm`}`,
     next: '下一层',
     previous: '上一层',
+    marksHeading: '齿的标记',
+    marks: { outline: '实际打印的轮廓', rail: '导轨', tip: '齿尖', bite: '咬入深度' },
     empty: '切片后即可查看各层。',
   },
   roles: {

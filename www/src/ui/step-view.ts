@@ -92,7 +92,7 @@ export class StepView extends StepPart {
         ${this.space ? this.#inSpace(show, flat) : nothing} ${this.#onCanvas(show, flat)}
         <div class="over-view">
           ${show === 'model' || !flat ? this.#sides() : nothing} ${show === 'layers' ? this.#kinds(flat) : nothing}
-          ${flat ? nothing : this.#measure()}
+          ${flat ? nothing : this.#measure()} ${show === 'layers' && flat ? this.#marks() : nothing}
         </div>
         ${show === 'layers' && !flat ? this.#moves() : nothing}
       </div>
@@ -178,6 +178,18 @@ export class StepView extends StepPart {
       ${choice(t.view.inSpace, !flat, () => this.store?.update({ flat: false }))}
       ${choice(t.view.flat, flat, () => this.store?.update({ flat: true }))}
     </div>`;
+  }
+
+  /** What the marks over the beads mean, where teeth have some. */
+  #marks(): TemplateResult | typeof nothing {
+    if (this.#shown === undefined || this.#shown.marks.length === 0) return nothing;
+    const { marks, marksHeading } = t.view;
+    return html`<ul class="inks bubble" aria-label=${marksHeading}>
+      <li class="ink-outline">${marks.outline}</li>
+      <li class="ink-rail">${marks.rail}</li>
+      <li class="ink-tip">${marks.tip}</li>
+      <li class="ink-bite">${marks.bite}</li>
+    </ul>`;
   }
 
   #measure(): TemplateResult {
