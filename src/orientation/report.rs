@@ -89,7 +89,8 @@ fn choose_with(
         }
     };
     mark_pareto(&mut figures);
-    let remarks = remarks(&figures, o1, exact);
+    let mut remarks = remarks(&figures, o1, exact);
+    remarks.extend(small_contact(&figures, chosen));
     let layer_height_mm = options.layer_height;
     Ok(OrientationReport { layer_height_mm, directions: figures, o1, r, o2, exact, chosen, remarks })
 }
@@ -133,6 +134,41 @@ fn remarks(figures: &[DirectionFigures], o1: [u8; DIRECTIONS], exact: [u8; DIREC
     found
 }
 
+/// A part stands on little when the square of its height is this many times its area on the bed.
+const TALL: f64 = 20.0;
+
+/// Another direction is named when it needs at most this many times the volume...
+const LITTLE_MORE: f64 = 1.25;
+
+/// ...and has at least so many times the area on the bed.
+const FAR_WIDER: f64 = 4.0;
+
+/// Says that the part would stand on little this way up, which neither volume nor structures tell, and
+/// names the direction that a person may like better.
+fn small_contact(figures: &[DirectionFigures], chosen: u32) -> Option<Remark> {
+    let own = figures.iter().find(|f| f.id == chosen)?;
+    if own.height_mm * own.height_mm <= TALL * own.bed_contact_mm2 {
+        return None;
+    }
+    let fits = |f: &&DirectionFigures| {
+        f.id != chosen
+            && f.total_mm3 <= LITTLE_MORE * own.total_mm3
+            && f.bed_contact_mm2 >= FAR_WIDER * own.bed_contact_mm2
+    };
+    let wider = figures.iter().filter(fits).max_by(|a, b| a.bed_contact_mm2.total_cmp(&b.bed_contact_mm2));
+    let (id, contact, height) = (own.id, own.bed_contact_mm2, own.height_mm);
+    let stands = format!("direction {id} stands {height:.0} mm high on {contact:.0} mm2");
+    let message = match wider {
+        Some(f) => {
+            let more = 100.0 * (f.total_mm3 - own.total_mm3) / own.total_mm3.max(f64::MIN_POSITIVE);
+            let wide = f.bed_contact_mm2;
+            format!("{stands}; direction {} needs {more:.0} % more support and stands on {wide:.0} mm2", f.id)
+        }
+        None => format!("{stands} only"),
+    };
+    Some(Remark { code: "orientation_small_contact", message })
+}
+
 /// "1 and 5" or "none".
 fn ids(minima: &[u8; DIRECTIONS]) -> String {
     let ids = minima.iter().zip(1..).filter(|(one, _)| **one == 1).map(|(_, id): (_, u32)| id.to_string());
@@ -155,7 +191,7 @@ mod tests {
             structures: structures[i],
             specks: 0,
             support_filament_mm: 0.0,
-            bed_contact_mm2: 1.0,
+            bed_contact_mm2: 100.0,
             height_mm: 10.0,
             layers: 50,
             time_surrogate_s: 0.0,
@@ -175,6 +211,21 @@ mod tests {
         assert_eq!(report.o2, [1, 0, 0, 0, 0, 0]);
         assert_eq!(report.chosen, 1);
         assert!(report.network_agrees() && report.remarks.is_empty());
+    }
+
+    #[test]
+    fn a_part_that_would_stand_on_little_is_told_of_with_the_wider_way_up() {
+        let mut found = figures([5713.0, 9000.0, 9000.0, 9000.0, 5261.0, 9000.0], [4; 6]);
+        (found[4].height_mm, found[4].bed_contact_mm2, found[0].bed_contact_mm2) = (41.0, 25.0, 642.0);
+        let report = choose(found.clone(), &OrientationOptions::default()).unwrap();
+        assert_eq!(report.chosen, 5);
+        assert_eq!(report.remarks[0].code, "orientation_small_contact");
+        assert_eq!(
+            report.remarks[0].message,
+            "direction 5 stands 41 mm high on 25 mm2; direction 1 needs 9 % more support and stands on 642 mm2"
+        );
+        found[4].bed_contact_mm2 = 85.0;
+        assert!(choose(found, &OrientationOptions::default()).unwrap().remarks.is_empty());
     }
 
     #[test]
