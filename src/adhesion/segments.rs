@@ -171,18 +171,15 @@ impl Grid {
     /// Visits the cells that a segment passes: row by row, the columns of its piece in that row.
     fn for_cells_of(&self, segment: &Segment, mut visit: impl FnMut(usize)) {
         let (a, b) = if segment.a.y <= segment.b.y { (segment.a, segment.b) } else { (segment.b, segment.a) };
-        let Some(((_, first), (_, last))) = self.cell_range(Bounds { min: a.min(b), max: a.max(b) }) else {
-            return;
-        };
-        let at = |y: f64| if b.y == a.y { a.x } else { a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)) };
+        let range = self.cell_range(Bounds { min: a.min(b), max: a.max(b) });
+        let Some(((left, first), (right, last))) = range else { return };
+        if first == last {
+            return (left..=right).for_each(|column| visit(first * self.columns + column));
+        }
+        let at = |y: f64| a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
         for row in first..=last {
             let bottom = self.origin.y + row as f64 * self.cell;
-            // A level segment has one row and both its ends there.
-            let (p, q) = if first == last {
-                (a.x, b.x)
-            } else {
-                (at(bottom.max(a.y)), at((bottom + self.cell).min(b.y)))
-            };
+            let (p, q) = (at(bottom.max(a.y)), at((bottom + self.cell).min(b.y)));
             let slack = self.cell * 1e-6;
             let piece = Bounds {
                 min: dvec2(p.min(q) - slack, bottom + slack),
