@@ -3,6 +3,7 @@
 //! Source: [Karim] equations (9) to (12). A_k is the part's section in layer k, S_k the support
 //! region, both seen from above; layers are counted from the bed.
 
+use crate::polygon::grid::EdgeGrid;
 use crate::polygon::island::{Island, inner_point};
 use crate::polygon::strips::Strips;
 use crate::polygon::{Contour, DVec2, Polygon, PolygonSet, dvec2};
@@ -16,6 +17,17 @@ const THIN_MM: f64 = 3e-4;
 /// rounded each in its own way. Without this a slit may stay between them, and each layer's piece
 /// counts as a structure of its own (129 instead of 3 in one trial).
 const BRIDGE_MM: f64 = 3e-4;
+
+/// Jags of a support region's free border that stick out by less than this share of a layer's height are cut
+/// off. Only outward ones: filling dents would lay slivers past the part's walls, and borders along the part
+/// stay exact, or slits would open there.
+const JAG_SHARE: f64 = 0.05;
+
+/// A border this near to the part's, mm, runs along it.
+const ALONG_MM: f64 = 2e-3;
+
+/// One cut takes at most so many vertices off.
+const MOST_CUT: usize = 24;
 
 /// What the descent needs to know about the print.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -113,7 +125,8 @@ impl Descent {
         held.extend_from_slice(self.region.contours());
         // These contours overlap: one operand of the difference, which counts what is wound around.
         let held = PolygonSet::canonical(held);
-        let region = without_slivers(held.difference(area));
+        let jags = JAG_SHARE * self.rules.layer_height;
+        let region = without_jags(without_slivers(held.difference(area)), area, jags);
         if !esf.is_empty() || region != self.region {
             let islands = Island::all_of(&region).into_iter();
             let parts = islands.map(|island| Part { node: self.structures.add(&island), island });
@@ -241,6 +254,40 @@ fn without_slivers(area: PolygonSet) -> PolygonSet {
     PolygonSet::canonical(area.into_contours().into_iter().filter(|c| !thin(c)).collect())
 }
 
+/// The region without jags of its free border lower than `height` mm: those borders are what many layers
+/// above left, and hold most of the vertices.
+fn without_jags(region: PolygonSet, area: &PolygonSet, height: f64) -> PolygonSet {
+    let edges: Vec<(DVec2, DVec2)> = area.contours().iter().flat_map(|c| c.edges()).collect();
+    let part = EdgeGrid::new(&edges);
+    let is_free = |p: &DVec2| part.nearest_edge(*p, ALONG_MM).is_none();
+    let contours = region.into_contours().into_iter().map(|contour| {
+        let free: Vec<bool> = contour.points.iter().map(is_free).collect();
+        cut_jags(contour, &free, height)
+    });
+    PolygonSet::canonical(contours.collect())
+}
+
+/// Leaves out runs of free vertices that lie outside the chord across them, and nearer to it than `height`.
+fn cut_jags(contour: Contour, free: &[bool], height: f64) -> Contour {
+    let points = &contour.points;
+    let n = points.len();
+    let mut kept = Vec::with_capacity(n);
+    let mut from = 0;
+    while from < n {
+        kept.push(points[from]);
+        let may_skip = |&to: &usize| {
+            let (a, along) = (points[from], points[to % n] - points[from]);
+            // The region lies to the left.
+            let out = |p: DVec2| -along.perp_dot(p - a);
+            let most = height * along.length();
+            points[from + 1..to].iter().all(|&p| (0.0..=most).contains(&out(p)))
+        };
+        let run = free[from + 1..].iter().take(MOST_CUT).take_while(|free| **free).count();
+        from = (from + 2..=(from + 1 + run).min(n)).take_while(may_skip).last().unwrap_or(from + 1);
+    }
+    if kept.len() < 3 { contour } else { Contour::new(kept) }
+}
+
 /// Union-find over the components of all layers; a set is one support structure.
 #[derive(Debug, Default)]
 struct Structures {
@@ -352,6 +399,21 @@ mod tests {
         let found = descend(&[(body.union(&tip), 2), (body, 10)]);
         assert_eq!((found.structures, found.specks), (1, 1));
         assert!((found.support_mm3 - 0.09 * 5.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn jags_of_free_borders_are_cut_and_dents_stay() {
+        let points =
+            [(0.0, 0.0), (5.0, -0.01), (10.0, 0.0), (10.01, 5.0), (10.0, 10.0), (5.0, 9.99), (0.0, 10.0)];
+        let shape = PolygonSet::canonical(vec![Contour::new(points.map(|(x, y)| dvec2(x, y)).to_vec())]);
+        // The part lies along the jag at the right.
+        let part = rectangle(10.011, 4.0, 20.0, 6.0);
+        let found = without_jags(shape.clone(), &part, 0.02);
+        let left: Vec<DVec2> = found.contours()[0].points.clone();
+        assert_eq!(left.len(), 6, "{left:?}");
+        assert!(left.contains(&dvec2(10.01, 5.0)) && left.contains(&dvec2(5.0, 9.99)));
+        assert!(!left.contains(&dvec2(5.0, -0.01)));
+        assert_eq!(without_jags(shape.clone(), &part, 0.005), shape);
     }
 
     #[test]
