@@ -45,11 +45,6 @@ pub fn read_model(name: &str, bytes: &[u8]) -> Result<Vec<Part>, FileError> {
     if parts.is_empty() { Err(FileError::NoTriangles) } else { Ok(parts) }
 }
 
-/// Whether [`read_model`] is to be asked: neither name nor beginning is an STL's.
-pub fn is_model(name: &str, beginning: &[u8]) -> bool {
-    archive::is_zip(beginning) || is_obj(name, beginning)
-}
-
 fn is_obj(name: &str, bytes: &[u8]) -> bool {
     let named = name.len() >= 4 && name.as_bytes()[name.len() - 4..].eq_ignore_ascii_case(b".obj");
     named && !bytes.starts_with(b"solid ")

@@ -11,12 +11,6 @@ fn thrown(name: &str, cause: &FileError) -> JsValue {
     error.into()
 }
 
-/// Whether a file is to be read here and not as STL; `beginning` are its first bytes.
-#[wasm_bindgen]
-pub fn is_model(name: &str, beginning: &[u8]) -> bool {
-    crate::is_model(name, beginning)
-}
-
 /// The parts of a model file.
 #[wasm_bindgen]
 pub struct Parts {

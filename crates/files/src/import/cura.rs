@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde_json::Value;
 
 use super::code::Placeholders;
-use super::table::{Row, Turn, number, switch, take};
+use super::table::{Row, Turn, Values, leave_rest, number, switch, take, take_all, take_supports};
 use super::{Collector, Imported};
 use crate::archive::Archive;
 use crate::error::FileError;
@@ -154,7 +154,7 @@ fn values(text: &str) -> Vec<(String, String)> {
     pairs
 }
 
-fn collected(mut found: BTreeMap<String, String>) -> Imported {
+fn collected(mut found: Values) -> Imported {
     let mut out = Collector::new();
     let formulas: Vec<String> =
         found.iter().filter(|(_, v)| v.starts_with('=')).map(|(k, _)| k.clone()).collect();
@@ -167,99 +167,76 @@ fn collected(mut found: BTreeMap<String, String>) -> Imported {
     {
         out.leave("line_width", &text, "wall_line_width goes before it");
     }
-    for row in ROWS {
-        if let Some(text) = found.remove(row.0) {
-            take(row, &text, &mut out);
-        }
+    take_all(ROWS, &[], &mut found, &mut out);
+    take_speed(&mut found, &mut out);
+    take_retraction(&mut found, &mut out);
+    take_first_layers(&mut found, &mut out);
+    take_supports("support_enable", &mut found, &mut out);
+    if let Some(text) = found.remove("support_type") {
+        out.map("support_type", &text, "support.everywhere", Value::from(text != "buildplate"));
     }
-    take_specials(&mut found, &mut out);
-    for (key, text) in found {
-        out.unknown(&key, &text);
-    }
+    take_machine(&mut found, &mut out);
+    leave_rest(found, &[], &mut out);
     out.finish("cura")
 }
 
-fn take_specials(found: &mut BTreeMap<String, String>, out: &mut Collector) {
-    if let Some(text) = found.remove("speed_print") {
-        match number(&text) {
-            Some(speed) => out.change(
-                "speed_print",
-                &text,
-                "speed.infill",
-                Value::from(speed),
-                "speeds of walls and skins stay as they are",
-            ),
-            None => out.leave("speed_print", &text, "not a number; left as it is"),
-        }
+/// One speed for all stands for that of infill: the others have settings of their own.
+fn take_speed(found: &mut Values, out: &mut Collector) {
+    let key = "speed_print";
+    let Some(text) = found.remove(key) else { return };
+    let why = "speeds of walls and skins stay as they are";
+    match number(&text) {
+        Some(speed) => out.change(key, &text, "speed.infill", Value::from(speed), why),
+        None => out.leave(key, &text, "not a number; left as it is"),
     }
+}
+
+/// Switches of retraction and hop, which are lengths of 0 here.
+fn take_retraction(found: &mut Values, out: &mut Collector) {
     if let Some(text) = found.remove("retraction_enable")
         && switch(&text) == Some(false)
     {
         out.map("retraction_enable", &text, "retraction.length", Value::from(0.0));
     }
-    if let Some(text) = found.remove("retraction_hop") {
-        match found.remove("retraction_hop_enabled").as_deref().and_then(switch) {
-            Some(false) => out.leave("retraction_hop", &text, "switched off in the profile"),
-            _ => take(&("retraction_hop", "retraction.z_hop", Turn::Number), &text, out),
-        }
+    let Some(text) = found.remove("retraction_hop") else { return };
+    match found.remove("retraction_hop_enabled").as_deref().and_then(switch) {
+        Some(false) => out.leave("retraction_hop", &text, "switched off in the profile"),
+        _ => take(&("retraction_hop", "retraction.z_hop", Turn::Number), &text, out),
     }
-    if let Some(text) = found.remove("xy_offset_layer_0") {
+}
+
+/// What is different on the first layers.
+fn take_first_layers(found: &mut Values, out: &mut Collector) {
+    let key = "xy_offset_layer_0";
+    if let Some(text) = found.remove(key) {
+        let path = "first_layer.elephant_foot";
         match number(&text) {
             Some(x) if x <= 0.0 => {
-                out.change(
-                    "xy_offset_layer_0",
-                    &text,
-                    "first_layer.elephant_foot",
-                    Value::from(0.0 - x),
-                    "counted inwards here",
-                );
+                out.change(key, &text, path, Value::from(0.0 - x), "counted inwards here");
             }
-            _ => out.leave("xy_offset_layer_0", &text, "the first layer cannot be made wider; left as it is"),
+            _ => out.leave(key, &text, "the first layer cannot be made wider; left as it is"),
         }
     }
-    if let Some(text) = found.remove("cool_fan_full_layer") {
+    let key = "cool_fan_full_layer";
+    if let Some(text) = found.remove(key) {
+        let path = "filament.fan_first_layers";
         match number(&text) {
             Some(layer) if layer >= 1.0 => {
-                out.change(
-                    "cool_fan_full_layer",
-                    &text,
-                    "filament.fan_first_layers",
-                    Value::from(layer - 1.0),
-                    "without a ramp: no fan below it",
-                );
+                out.change(key, &text, path, Value::from(layer - 1.0), "without a ramp: no fan below it");
             }
-            _ => out.leave("cool_fan_full_layer", &text, "not a layer; left as it is"),
+            _ => out.leave(key, &text, "not a layer; left as it is"),
         }
     }
-    if let Some(text) = found.remove("support_enable") {
-        match switch(&text) {
-            Some(true) => out.change(
-                "support_enable",
-                &text,
-                "support.method",
-                Value::from("grid"),
-                "supports as a plain grid",
-            ),
-            Some(false) => out.map("support_enable", &text, "support.method", Value::from("none")),
-            None => out.leave("support_enable", &text, "neither on nor off; left as it is"),
-        }
-    }
-    if let Some(text) = found.remove("support_type") {
-        out.map("support_type", &text, "support.everywhere", Value::from(text != "buildplate"));
-    }
-    let size = (
-        found.get("machine_width").and_then(|t| number(t)),
-        found.get("machine_depth").and_then(|t| number(t)),
-    );
-    if let (Some(width), Some(depth)) = size {
+}
+
+/// Size, shape and origin of the bed.
+fn take_machine(found: &mut Values, out: &mut Collector) {
+    let side = |key: &str| found.get(key).and_then(|text| number(text));
+    if let (Some(width), Some(depth)) = (side("machine_width"), side("machine_depth")) {
         found.remove("machine_width");
         found.remove("machine_depth");
-        out.map(
-            "machine_width",
-            &format!("{width} x {depth}"),
-            "printer.bed_size",
-            Value::from(vec![width, depth]),
-        );
+        let size = format!("{width} x {depth}");
+        out.map("machine_width", &size, "printer.bed_size", Value::from(vec![width, depth]));
     }
     if let Some(text) = found.remove("machine_shape") {
         let shape = if text == "elliptic" { "round" } else { "rectangle" };

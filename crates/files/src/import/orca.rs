@@ -1,12 +1,13 @@
 //! OrcaSlicer and Bambu Studio: JSON whose values are words or lists of words.
 
-use std::collections::BTreeMap;
-
 use serde_json::Value;
 
 use super::code::Placeholders;
 use super::prusa::{FLAVORS, PATTERNS, SEAMS};
-use super::table::{Row, Turn, first_of, number, switch, take, take_bed, take_relative};
+use super::table::{
+    Relative, Row, Turn, Values, brim_side, first_of, leave_rest, number, switch, take, take_all, take_bed,
+    take_bed_only, take_supports, take_threshold,
+};
 use super::{Collector, Imported};
 use crate::error::FileError;
 
@@ -92,7 +93,7 @@ const ROWS: &[Row] = &[
 ];
 
 /// (name, path, name of what it may be a share of): widths in percent are shares of the nozzle.
-const WIDTHS: &[(&str, &str, &str)] = &[
+const WIDTHS: &[Relative] = &[
     ("inner_wall_line_width", "walls.width", "nozzle_diameter"),
     ("initial_layer_line_width", "first_layer.line_width", "nozzle_diameter"),
     ("support_line_width", "support.line_width", "nozzle_diameter"),
@@ -116,30 +117,15 @@ pub(super) fn import(text: &str) -> Result<Imported, FileError> {
     let malformed = |cause: String| FileError::Malformed { place: "JSON".to_owned(), cause };
     let root: Value = serde_json::from_str(text).map_err(|e| malformed(e.to_string()))?;
     let Value::Object(map) = root else { return Err(FileError::UnknownProfile) };
-    let mut found: BTreeMap<String, String> = map.into_iter().map(|(key, v)| (key, words(&v))).collect();
+    let mut found: Values = map.into_iter().map(|(key, v)| (key, words(&v))).collect();
     let known = found.keys().filter(|k| ROWS.iter().any(|(key, ..)| key == k)).count();
     if known == 0 && !found.contains_key("inherits") {
         return Err(FileError::UnknownProfile);
     }
     let mut out = Collector::new();
-    let all = found.clone();
-    let value_of = |key: &str| all.get(key).and_then(|text| number(first_of(text)));
-    for row in ROWS {
-        if let Some(text) = found.remove(row.0) {
-            take(row, &text, &mut out);
-        }
-    }
-    for &(key, path, base) in WIDTHS {
-        if let Some(text) = found.remove(key) {
-            take_relative(key, &text, path, value_of(base), &mut out);
-        }
-    }
+    take_all(ROWS, WIDTHS, &mut found, &mut out);
     take_specials(&mut found, &mut out);
-    for (key, text) in found {
-        if !ASIDE.contains(&&*key) {
-            out.unknown(&key, &text);
-        }
-    }
+    leave_rest(found, ASIDE, &mut out);
     Ok(out.finish("orcaslicer"))
 }
 
@@ -152,7 +138,7 @@ fn words(value: &Value) -> String {
     }
 }
 
-fn take_specials(found: &mut BTreeMap<String, String>, out: &mut Collector) {
+fn take_specials(found: &mut Values, out: &mut Collector) {
     if let Some(text) = found.remove("inherits")
         && !text.is_empty()
     {
@@ -178,48 +164,17 @@ fn take_specials(found: &mut BTreeMap<String, String>, out: &mut Collector) {
             Value::from(vec![a, b]),
         );
     }
-    if let Some(text) = found.remove("enable_support") {
-        match switch(&text) {
-            Some(true) => out.change(
-                "enable_support",
-                &text,
-                "support.method",
-                Value::from("grid"),
-                "supports as a plain grid",
-            ),
-            Some(false) => out.map("enable_support", &text, "support.method", Value::from("none")),
-            None => out.leave("enable_support", &text, "neither on nor off; left as it is"),
-        }
-    }
-    if let Some(text) = found.remove("support_on_build_plate_only") {
-        let everywhere = switch(&text) != Some(true);
-        out.map("support_on_build_plate_only", &text, "support.everywhere", Value::from(everywhere));
-    }
-    if let Some(text) = found.remove("support_threshold_angle") {
-        match number(first_of(&text)) {
-            Some(angle) if angle > 0.0 => out.change(
-                "support_threshold_angle",
-                &text,
-                "support.overhang_angle_deg",
-                Value::from(90.0 - angle),
-                "measured from the vertical here",
-            ),
-            _ => out.leave("support_threshold_angle", &text, "chosen by the slicer; left as it is"),
-        }
-    }
+    take_supports("enable_support", found, out);
+    take_bed_only("support_on_build_plate_only", found, out);
+    take_threshold("support_threshold_angle", found, out);
     take_adhesion(found, out);
 }
 
-fn take_adhesion(found: &mut BTreeMap<String, String>, out: &mut Collector) {
+fn take_adhesion(found: &mut Values, out: &mut Collector) {
     let raft = found.remove("raft_layers").filter(|t| number(first_of(t)).is_some_and(|n| n > 0.0));
     let brim = found.remove("brim_type");
     let skirt = found.remove("skirt_loops").filter(|t| number(first_of(t)).is_some_and(|n| n > 0.0));
-    let side = match brim.as_deref() {
-        Some("outer_only" | "auto_brim" | "brim_ears") => Some("outer"),
-        Some("inner_only") => Some("inner"),
-        Some("outer_and_inner") => Some("both"),
-        _ => None,
-    };
+    let side = brim.as_deref().and_then(brim_side);
     if let Some(text) = raft {
         out.map("raft_layers", &text, "adhesion.kind", Value::from("raft"));
         out.map(

@@ -1,11 +1,12 @@
 //! PrusaSlicer: `name = value` lines, in a file or as comments at the end of G-code.
 
-use std::collections::BTreeMap;
-
 use serde_json::Value;
 
 use super::code::Placeholders;
-use super::table::{Row, Turn, first_of, number, switch, take, take_bed, take_relative};
+use super::table::{
+    Relative, Row, Turn, Values, brim_side, first_of, leave_rest, number, take_all, take_bed, take_bed_only,
+    take_supports, take_threshold,
+};
 use super::{Collector, Imported};
 
 const NAMES: Placeholders = &[
@@ -115,7 +116,7 @@ const ROWS: &[Row] = &[
 ];
 
 /// (name, path, name of what it may be a share of).
-const RELATIVE: &[(&str, &str, &str)] = &[
+const RELATIVE: &[Relative] = &[
     ("first_layer_height", "layers.first_height", "layer_height"),
     ("external_perimeter_speed", "speed.outer_wall", "perimeter_speed"),
     ("solid_infill_speed", "speed.solid_infill", "infill_speed"),
@@ -138,7 +139,7 @@ const ASIDE: &[&str] = &[
 ];
 
 /// The pairs of an .ini file, or of the comments at the end of G-code; `None` if it is neither.
-pub(super) fn pairs(text: &str) -> Option<BTreeMap<String, String>> {
+pub(super) fn pairs(text: &str) -> Option<Values> {
     let block = text.split_once("; prusaslicer_config = begin").map(|(_, b)| b);
     let block = block.map(|b| b.split("; prusaslicer_config = end").next().unwrap_or(b));
     let lines = block.unwrap_or(text).lines();
@@ -149,25 +150,14 @@ pub(super) fn pairs(text: &str) -> Option<BTreeMap<String, String>> {
         let is_name = !key.is_empty() && key.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
         is_name.then(|| (key.to_owned(), value.trim().to_owned()))
     };
-    let found: BTreeMap<String, String> = lines.filter_map(pair).collect();
+    let found: Values = lines.filter_map(pair).collect();
     let known = found.keys().filter(|k| ROWS.iter().any(|(key, ..)| key == k)).count();
     (block.is_some() || known >= 2).then_some(found)
 }
 
-pub(super) fn import(mut found: BTreeMap<String, String>) -> Imported {
+pub(super) fn import(mut found: Values) -> Imported {
     let mut out = Collector::new();
-    let all = found.clone();
-    let value_of = |key: &str| all.get(key).and_then(|text| number(first_of(text)));
-    for row in ROWS {
-        if let Some(text) = found.remove(row.0) {
-            take(row, &text, &mut out);
-        }
-    }
-    for &(key, path, base) in RELATIVE {
-        if let Some(text) = found.remove(key) {
-            take_relative(key, &text, path, value_of(base), &mut out);
-        }
-    }
+    take_all(ROWS, RELATIVE, &mut found, &mut out);
     if let Some(text) = found.remove("bed_shape") {
         take_bed("bed_shape", &text, &mut out);
     }
@@ -179,53 +169,16 @@ pub(super) fn import(mut found: BTreeMap<String, String>) -> Imported {
             Value::from(!["0", "disabled"].contains(&&*text)),
         );
     }
-    take_supports(&mut found, &mut out);
+    take_supports("support_material", &mut found, &mut out);
+    take_bed_only("support_material_buildplate_only", &mut found, &mut out);
+    take_threshold("support_material_threshold", &mut found, &mut out);
     take_adhesion(&mut found, &mut out);
-    for (key, text) in found {
-        if !ASIDE.contains(&&*key) {
-            out.unknown(&key, &text);
-        }
-    }
+    leave_rest(found, ASIDE, &mut out);
     out.finish("prusaslicer")
 }
 
-fn take_supports(found: &mut BTreeMap<String, String>, out: &mut Collector) {
-    if let Some(text) = found.remove("support_material") {
-        match switch(&text) {
-            Some(true) => {
-                out.change(
-                    "support_material",
-                    &text,
-                    "support.method",
-                    Value::from("grid"),
-                    "supports as a plain grid",
-                );
-            }
-            Some(false) => out.map("support_material", &text, "support.method", Value::from("none")),
-            None => out.leave("support_material", &text, "neither on nor off; left as it is"),
-        }
-    }
-    if let Some(text) = found.remove("support_material_buildplate_only") {
-        let everywhere = switch(&text) != Some(true);
-        out.map("support_material_buildplate_only", &text, "support.everywhere", Value::from(everywhere));
-    }
-    if let Some(text) = found.remove("support_material_threshold") {
-        match number(first_of(&text)) {
-            // Their angle is measured from the bed, ours from the vertical.
-            Some(angle) if angle > 0.0 => out.change(
-                "support_material_threshold",
-                &text,
-                "support.overhang_angle_deg",
-                Value::from(90.0 - angle),
-                "measured from the vertical here",
-            ),
-            _ => out.leave("support_material_threshold", &text, "chosen by the slicer; left as it is"),
-        }
-    }
-}
-
 /// One kind of base layer here; a raft goes before a brim, a brim before a skirt.
-fn take_adhesion(found: &mut BTreeMap<String, String>, out: &mut Collector) {
+fn take_adhesion(found: &mut Values, out: &mut Collector) {
     let mut taken = false;
     let mut settle = |key: &str, text: &str, kind: &str, out: &mut Collector| {
         let is_first = !std::mem::replace(&mut taken, true);
@@ -242,12 +195,7 @@ fn take_adhesion(found: &mut BTreeMap<String, String>, out: &mut Collector) {
         }
     }
     if let Some(text) = found.remove("brim_type") {
-        let side = match &*text {
-            "outer_only" | "auto_brim" => Some("outer"),
-            "inner_only" => Some("inner"),
-            "outer_and_inner" => Some("both"),
-            _ => None,
-        };
+        let side = brim_side(&text);
         let width = found.get("brim_width").and_then(|t| number(first_of(t)));
         if let (Some(side), false) = (side, width == Some(0.0))
             && settle("brim_type", &text, "brim", out)

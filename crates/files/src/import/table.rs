@@ -1,5 +1,7 @@
 //! How single values are turned: one row for each name.
 
+use std::collections::BTreeMap;
+
 use serde_json::Value;
 
 use super::Collector;
@@ -22,6 +24,75 @@ pub(crate) enum Turn {
 
 /// A name of another slicer, our path, and how the value is turned.
 pub(crate) type Row = (&'static str, &'static str, Turn);
+
+/// A name of another slicer, our path, and the name of what a percentage is a share of.
+pub(crate) type Relative = (&'static str, &'static str, &'static str);
+
+/// The values of a profile that are not dealt with yet, by name.
+pub(crate) type Values = BTreeMap<String, String>;
+
+/// Takes over all values that have a row.
+pub(crate) fn take_all(rows: &[Row], relative: &[Relative], found: &mut Values, out: &mut Collector) {
+    let bases: Vec<Option<f64>> =
+        relative.iter().map(|(.., base)| found.get(*base).and_then(|text| number(first_of(text)))).collect();
+    for row in rows {
+        if let Some(text) = found.remove(row.0) {
+            take(row, &text, out);
+        }
+    }
+    for (&(key, path, _), base) in relative.iter().zip(bases) {
+        if let Some(text) = found.remove(key) {
+            take_relative(key, &text, path, base, out);
+        }
+    }
+}
+
+/// Lists what is left as unknown, but for what a file says of itself and nobody prints.
+pub(crate) fn leave_rest(found: Values, aside: &[&str], out: &mut Collector) {
+    for (key, text) in found.into_iter().filter(|(key, _)| !aside.contains(&key.as_str())) {
+        out.unknown(&key, &text);
+    }
+}
+
+/// The switch of supports, which are a grid elsewhere.
+pub(crate) fn take_supports(key: &str, found: &mut Values, out: &mut Collector) {
+    let Some(text) = found.remove(key) else { return };
+    let path = "support.method";
+    match switch(&text) {
+        Some(true) => out.change(key, &text, path, Value::from("grid"), "supports as a plain grid"),
+        Some(false) => out.map(key, &text, path, Value::from("none")),
+        None => out.leave(key, &text, "neither on nor off; left as it is"),
+    }
+}
+
+/// The switch that keeps supports off the part.
+pub(crate) fn take_bed_only(key: &str, found: &mut Values, out: &mut Collector) {
+    if let Some(text) = found.remove(key) {
+        out.map(key, &text, "support.everywhere", Value::from(switch(&text) != Some(true)));
+    }
+}
+
+/// The angle from which overhangs are held, measured from the bed there and from the vertical here.
+pub(crate) fn take_threshold(key: &str, found: &mut Values, out: &mut Collector) {
+    let Some(text) = found.remove(key) else { return };
+    match number(first_of(&text)) {
+        Some(angle) if angle > 0.0 => {
+            let why = "measured from the vertical here";
+            out.change(key, &text, "support.overhang_angle_deg", Value::from(90.0 - angle), why);
+        }
+        _ => out.leave(key, &text, "chosen by the slicer; left as it is"),
+    }
+}
+
+/// Our side of a brim of this type; `None` for no brim.
+pub(crate) fn brim_side(brim_type: &str) -> Option<&'static str> {
+    match brim_type {
+        "outer_only" | "auto_brim" | "brim_ears" => Some("outer"),
+        "inner_only" => Some("inner"),
+        "outer_and_inner" => Some("both"),
+        _ => None,
+    }
+}
 
 /// Takes over a value by its row. `text` may be a list, of which the first is for the first tool.
 pub(crate) fn take(row: &Row, text: &str, out: &mut Collector) {
@@ -130,7 +201,7 @@ pub(crate) fn take_bed(key: &str, text: &str, out: &mut Collector) {
 }
 
 /// A speed or width that may be a share of another one; 0 means that the slicer chooses.
-pub(crate) fn take_relative(key: &str, text: &str, path: &str, base: Option<f64>, out: &mut Collector) {
+fn take_relative(key: &str, text: &str, path: &str, base: Option<f64>, out: &mut Collector) {
     let first = first_of(text);
     match (number(first.trim_end_matches('%')), first.ends_with('%'), base) {
         (Some(0.0), _, _) => out.leave(key, text, "chosen by the slicer; left as it is"),
