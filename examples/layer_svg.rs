@@ -4,8 +4,6 @@
 use std::error::Error;
 
 use foothold::gcode::{FilamentOptions, PrinterOptions, read};
-use foothold::polygon::measure::Bounds;
-use foothold::polygon::{DVec2, dvec2};
 use foothold::view::Scene;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -15,8 +13,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let file = read::read(&std::fs::read(gcode)?, FilamentOptions::default().diameter);
     let layer = file.layers.get(layer.parse::<usize>()?).ok_or("there is no such layer")?;
-    let [width, depth] = PrinterOptions::default().bed_size;
-    let bed = Bounds { min: DVec2::ZERO, max: dvec2(width, depth) };
-    std::fs::write(out, Scene::of_layer(layer, bed, None).to_svg())?;
+    std::fs::write(out, Scene::of_layer(layer, &PrinterOptions::default(), None).to_svg())?;
     Ok(())
 }

@@ -5,6 +5,7 @@ use std::error::Error;
 use std::path::Path;
 
 use foothold::gcode::Sequence;
+use foothold::gcode::inspect::GcodeFigures;
 use foothold::mesh::Inspection;
 use foothold::pipeline::Report;
 use foothold::printer::{Event, Outline};
@@ -27,10 +28,11 @@ fn settings() -> Schema {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args().nth(1).ok_or("usage: schema FOLDER")?;
-    let schemas: [(&str, Schema); 5] = [
+    let schemas: [(&str, Schema); 6] = [
         ("settings", settings()),
         ("report", schema_for!(Report)),
         ("inspection", schema_for!(Inspection)),
+        ("gcode-figures", schema_for!(GcodeFigures)),
         ("printer-event", schema_for!(Event)),
         ("printer-outline", schema_for!(Outline)),
     ];

@@ -36,7 +36,9 @@ export async function build() {
 }
 
 function schemas() {
-  const outputs = ['settings', 'report', 'printer-event', 'printer-outline'].map((it) => `schema/${it}.schema.json`);
+  const outputs = ['settings', 'report', 'gcode-figures', 'printer-event', 'printer-outline'].map(
+    (it) => `schema/${it}.schema.json`,
+  );
   return step('schema', { inputs: [...rust, 'examples/schema.rs'], outputs }, async () => {
     mkdirSync(schema, { recursive: true });
     const fast = quick ? ['--target-dir', at('target', 'unoptimised'), '--config', 'profile.dev.opt-level=0'] : [];
@@ -46,7 +48,7 @@ function schemas() {
 }
 
 function types() {
-  const names = ['settings', 'report', 'printer-event', 'printer-outline'];
+  const names = ['settings', 'report', 'gcode-figures', 'printer-event', 'printer-outline'];
   const outputs = names.map((it) => `www/src/generated/${it}.ts`);
   return step('types', { inputs: ['schema', 'scripts/build.mjs', 'package-lock.json'], outputs }, async () => {
     const { compileFromFile } = await import('json-schema-to-typescript');

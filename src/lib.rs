@@ -13,6 +13,7 @@
 //! - [`toolpath`]: centre lines of beads in printing order.
 //! - [`gcode`]: moves with speed and extrusion, then text.
 //! - [`printer`]: the serial protocol, without any I/O.
+//! - [`picture`]: models in pixels, thumbnails.
 //! - [`settings`], [`pipeline`], [`view`]: the options of all stages, the list of steps, pictures.
 //!
 //! Units inside are millimetres, seconds, radians and mm/s; other units stand in the name
@@ -34,6 +35,8 @@ pub mod mesh;
 pub mod options;
 #[cfg(feature = "slicer")]
 pub mod orientation;
+#[cfg(feature = "slicer")]
+pub mod picture;
 #[cfg(feature = "slicer")]
 pub mod pipeline;
 #[cfg(feature = "slicer")]

@@ -5,7 +5,7 @@ mod common;
 use foothold::mesh::{Mesh, load, stl::write_binary};
 use foothold::pipeline::{Job, NamedModel, Warning};
 use foothold::settings::Settings;
-use glam::{Vec3, vec3};
+use glam::{DMat4, Vec3, dvec3, vec3};
 
 fn warnings(mesh: &Mesh, sets: &[&str]) -> Vec<Warning> {
     of_bytes(&write_binary(mesh), sets)
@@ -14,7 +14,10 @@ fn warnings(mesh: &Mesh, sets: &[&str]) -> Vec<Warning> {
 fn of_bytes(bytes: &[u8], sets: &[&str]) -> Vec<Warning> {
     let settings = Settings::resolve([], sets.iter().copied()).expect("good settings");
     let named = NamedModel::new("part", load(bytes).expect("a mesh"));
-    let mut job = Job::new(&[named], settings, &|| 0.0).expect("it fits");
+    of_job(Job::new(&[named], settings, &|| 0.0).expect("it fits"))
+}
+
+fn of_job(mut job: Job) -> Vec<Warning> {
     job.prepare(&|| 0.0).expect("good settings");
     let ranges: Vec<_> = (0..job.layer_count()).step_by(7).collect();
     for first in ranges {
@@ -33,6 +36,12 @@ fn codes(found: &[Warning]) -> Vec<&str> {
         "no_pressure_advance",
         "forbidden_zone",
         "floating_island",
+        "no_arcs",
+        "not_on_bed",
+        "thin_wall",
+        "lost_wall",
+        "overhang",
+        "long_bridge",
     ];
     found.iter().map(|w| w.code.as_str()).filter(|c| ours.contains(c)).collect()
 }
@@ -103,11 +112,118 @@ fn a_raft_holds_what_stands_on_it() {
 }
 
 #[test]
-fn real_models_have_no_islands_in_the_air() {
+fn arcs_for_a_firmware_without_them_are_told() {
+    let cube = common::cube(5.0);
+    let sets = ["gcode.arc_fitting=true", "printer.flavor=klipper"];
+    let found = warnings(&cube, &sets);
+    assert_eq!(codes(&found), ["no_arcs"]);
+    assert_eq!(found[0].fix, ["gcode.arc_fitting=false"]);
+    assert!(codes(&warnings(&cube, &["gcode.arc_fitting=true"])).is_empty());
+}
+
+#[test]
+fn a_part_above_the_bed_is_told() {
+    let placed = |z: f64| {
+        let named = NamedModel::new("part", load(&write_binary(&common::cube(5.0))).expect("a mesh"));
+        let up = DMat4::from_translation(dvec3(50.0, 60.0, z));
+        of_job(Job::placed(&[named], &[up], Settings::default(), &|| 0.0).expect("it fits"))
+    };
+    let found = placed(0.5);
+    let told = found.iter().find(|w| w.code == "not_on_bed").expect("told");
+    assert_eq!((told.layer, told.at), (Some(0), Some([52.5, 62.5])));
+    assert!(told.message.contains("0.50 mm"), "{}", told.message);
+    // The first layer is cut at 0.1 mm.
+    assert!(codes(&placed(0.05)).is_empty());
+}
+
+/// A plate 30 x 10 x 2 mm on a foot of 10 x 10 x 5 mm under its left end.
+fn balcony() -> Mesh {
+    let foot = common::cuboid(Vec3::ZERO, vec3(10.0, 10.0, 5.0));
+    common::together(&[foot, common::cuboid(vec3(0.0, 0.0, 5.0), vec3(30.0, 10.0, 7.0))])
+}
+
+#[test]
+fn a_balcony_is_told_and_mended_by_supports() {
+    let found = warnings(&balcony(), &[]);
+    assert_eq!(codes(&found), ["overhang"]);
+    let told = found.iter().find(|w| w.code == "overhang").expect("told");
+    // 20 x 10 mm in the air, from layer 25 on.
+    assert_eq!(told.layer, Some(25));
+    assert_eq!(told.message, "200 mm2 hang in the air here without supports");
+    let [x, y] = told.at.expect("a place");
+    // The plate stands at 95 to 125, 105 to 115.
+    assert!((105.0..125.0).contains(&x) && (105.0..115.0).contains(&y), "{x} {y}");
+    let fixes: Vec<&str> = told.fix.iter().map(String::as_str).collect();
+    assert!(!codes(&warnings(&balcony(), &fixes)).contains(&"overhang"));
+}
+
+/// A deck on two pillars with this much air between them, mm.
+fn deck(span: f32) -> Mesh {
+    let pillar = |x: f32| common::cuboid(vec3(x, 0.0, 0.0), vec3(x + 5.0, 10.0, 5.0));
+    let top = common::cuboid(vec3(0.0, 0.0, 5.0), vec3(span + 10.0, 10.0, 7.0));
+    common::together(&[pillar(0.0), pillar(span + 5.0), top])
+}
+
+#[test]
+fn long_bridges_are_told_and_short_ones_pass() {
+    let found = warnings(&deck(40.0), &[]);
+    assert_eq!(codes(&found), ["long_bridge"]);
+    let told = found.iter().find(|w| w.code == "long_bridge").expect("told");
+    assert_eq!((told.layer, &told.message[..]), (Some(25), "a bridge of 40 mm will sag here"));
+    assert!(codes(&warnings(&deck(25.0), &[])).is_empty());
+}
+
+#[test]
+fn walls_thinner_than_a_line_are_told_with_what_makes_them_thick_enough() {
+    let wall = |thickness: f32| common::cuboid(Vec3::ZERO, vec3(30.0, thickness, 2.0));
+    let found = warnings(&wall(0.35), &["first_layer.elephant_foot=0"]);
+    assert_eq!(codes(&found), ["thin_wall"]);
+    let told = found.iter().find(|w| w.code == "thin_wall").expect("told");
+    assert_eq!(
+        told.message,
+        "a wall is thinner than a line here: 0.35 of 0.45 mm; it is printed as one narrow line (on 9 layers)"
+    );
+    assert_eq!(told.fix, ["walls.horizontal_expansion=0.05"]);
+    let sets = ["first_layer.elephant_foot=0", told.fix[0].as_str()];
+    assert!(codes(&warnings(&wall(0.35), &sets)).is_empty());
+    assert!(codes(&warnings(&wall(0.5), &[])).is_empty());
+    assert_eq!(codes(&warnings(&wall(0.08), &["first_layer.elephant_foot=0"])), ["lost_wall"]);
+}
+
+/// The report is the same, however the layers are shared out.
+#[test]
+fn places_are_told_once_for_the_whole_job() {
+    let found = warnings(&common::cuboid(Vec3::ZERO, vec3(30.0, 0.35, 10.0)), &[]);
+    assert_eq!(codes(&found), ["thin_wall"]);
+}
+
+/// What the checks say of the good models, looked at in pictures of their layers.
+#[test]
+fn real_models_are_passed_or_rightly_told() {
     let Some(dir) = common::models_dir() else { return };
-    for name in ["angle_block_mm.stl", "cal_cube.stl", "hole_test.stl", "tolerance.stl", "xy_calibration.stl"]
-    {
+    // The feature tester has balconies and a fin as
+    // thin as a razor; the bridge tester's longest bridge has 50 mm; islands hang in the support tester.
+    let expected: [(&str, &[&str]); 12] = [
+        ("angle_block_mm.stl", &[]),
+        ("bridge_test.stl", &["long_bridge"]),
+        ("cal_cube.stl", &[]),
+        ("featuretype_mm.stl", &["overhang", "thin_wall"]),
+        ("hole_test.stl", &[]),
+        ("idler_riser_mm.stl", &[]),
+        ("multibody_mm.stl", &["overhang", "floating_island"]),
+        ("overhang.stl", &["overhang"]),
+        ("retract_tower.stl", &[]),
+        ("support_test.stl", &["floating_island"]),
+        ("thin_wall.stl", &["thin_wall"]),
+        ("tolerance.stl", &[]),
+    ];
+    let found = expected.map(|(name, _)| {
         let bytes = std::fs::read(dir.join(name)).expect("a model");
-        assert!(codes(&of_bytes(&bytes, &["layers.height=0.3"])).is_empty(), "{name}");
-    }
+        let found = of_bytes(&bytes, &["layers.height=0.3"]);
+        let mut codes: Vec<String> = codes(&found).into_iter().map(str::to_owned).collect();
+        codes.dedup();
+        (name, codes)
+    });
+    let expected = expected.map(|(name, codes)| (name, codes.iter().map(|c| (*c).to_owned()).collect()));
+    assert_eq!(found, expected);
 }

@@ -61,9 +61,12 @@ fn a_circle_is_two_arcs() {
 }
 
 #[test]
-fn arcs_are_refused_where_the_firmware_has_none() {
-    let found = refusal(&["gcode.arc_fitting=true", "printer.flavor=klipper"]);
-    assert_eq!(found, "gcode.arc_fitting: the firmware klipper is not known to take arcs");
+fn arcs_are_not_written_for_a_firmware_that_has_none() {
+    let circle = Path::closed(Role::OuterWall, common::circle(dvec2(50.0, 50.0), 10.0, 120), 0.45);
+    let mut options = with_arcs(0.01);
+    options.printer.flavor = Flavor::Klipper;
+    let text = String::from_utf8(layer_gcode(&layer(1, &[circle]), &options).text).expect("ASCII");
+    assert!(!text.lines().any(|l| l.starts_with("G2 ") || l.starts_with("G3 ")), "{text}");
     let wide = Settings::resolve([], ["gcode.arc_tolerance=0.05"]).expect_err("too coarse").to_string();
     assert_eq!(wide, "gcode.arc_tolerance: 0.05 is outside 0.001 to 0.02 mm");
 }

@@ -26,11 +26,12 @@ const MAY_USE: &[(&str, &[&[&str]])] = &[
     ("orientation", &[&["mesh", "slice", "polygon", "region", "support"]]),
     ("toolpath", &[&["polygon", "region"]]),
     ("gcode", &[&["polygon", "toolpath", "region"]]),
+    ("picture", &[&["mesh", "polygon"]]),
     ("printer", &[]),
     ("settings", &[STAGES]),
-    ("pipeline", &[STAGES, &["settings"]]),
-    ("view", &[STAGES, &["settings", "pipeline"]]),
-    ("wasm", &[STAGES, &["settings", "pipeline", "view", "printer"]]),
+    ("pipeline", &[STAGES, &["settings", "picture"]]),
+    ("view", &[STAGES, &["settings", "pipeline", "picture"]]),
+    ("wasm", &[STAGES, &["settings", "pipeline", "view", "picture", "printer"]]),
 ];
 
 #[test]

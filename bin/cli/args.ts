@@ -40,6 +40,14 @@ export type Command =
       readonly own: readonly OwnWord[];
       readonly report: string | undefined;
       readonly workers: number;
+      readonly scale: number | undefined;
+    }
+  | {
+      readonly kind: 'place';
+      readonly models: readonly string[];
+      readonly out: string;
+      readonly settings: SettingWords;
+      readonly scale: number | undefined;
     }
   | { readonly kind: 'inspect'; readonly model: string; readonly report: string | undefined }
   | {
@@ -62,7 +70,8 @@ export const help = `Foothold: STL, 3MF or OBJ in, printable G-code out.
 usage: foothold slice MODEL... [-o OUT.gcode] [--printer ID] [--material ID] [--quality ID]
                 [--settings F.json] [--set path=value]... [--set-for MODEL:path=value]...
                 [--report R.json] [--workers N]
-       foothold inspect MODEL [--report R.json]
+       foothold inspect MODEL|FILE.gcode [--report R.json]
+       foothold place MODEL... -o OUT.stl [--scale F] [--set path=value]...
        foothold draw MODEL (--layer K | --plane y=12.5) -o OUT.svg [--settings F.json] [--set path=value]...
        foothold orient MODEL [--report R.json] [--layer-height T] [--workers N]
        foothold compare MODEL [--report R.json]
@@ -71,7 +80,9 @@ usage: foothold slice MODEL... [-o OUT.gcode] [--printer ID] [--material ID] [--
        foothold import PROFILE [-o SETTINGS.json]
 
   slice      writes G-code; several models are arranged on the bed
-  inspect    counts triangles, shells and faults, and measures the model
+  inspect    counts triangles, shells and faults, and measures the model; of a G-code file of any slicer
+             its layers, time, filament and lengths by role
+  place      the models as they stand on the bed, scaled and turned, in one STL
   draw       one layer (K counts from 0) or one vertical plane as a picture
   orient     which way up needs the least support, with the figures of each direction
   compare    skirt, brim, raft and teeth side by side
@@ -87,6 +98,7 @@ usage: foothold slice MODEL... [-o OUT.gcode] [--printer ID] [--material ID] [--
   --set            one setting: JSON, else a plain word (--set adhesion.kind=skirt)
   --set-for        one setting of one model, named as its file (--set-for cube:infill.density=1)
   --report         what was made, as JSON
+  --scale          every model F times as large as in its file (25.4 for inches)
   --workers        engines that work at the same time (default: processors, at most 4)
   --help, --version
 
@@ -104,6 +116,7 @@ const settingOptions = {
 const output = { output: { type: 'string', short: 'o' } } as const;
 const report = { report: { type: 'string' } } as const;
 const workers = { workers: { type: 'string' } } as const;
+const scale = { scale: { type: 'string' } } as const;
 
 /** The command that `words` (without node and the script) ask for. */
 export function parseCommand(words: readonly string[]): Command {
@@ -114,6 +127,8 @@ export function parseCommand(words: readonly string[]): Command {
   switch (name) {
     case 'slice':
       return slice(rest);
+    case 'place':
+      return place(rest);
     case 'inspect':
       return inspect(rest);
     case 'draw':
@@ -131,14 +146,14 @@ export function parseCommand(words: readonly string[]): Command {
       return { kind: 'profiles' };
     default:
       throw new UsageError(
-        `no command "${name}": slice, inspect, draw, orient, compare, settings, profiles and import are there`,
+        `no command "${name}": slice, place, inspect, draw, orient, compare, settings, profiles and import are there`,
       );
   }
 }
 
 function slice(words: readonly string[]): Command {
   const setFor = { 'set-for': { type: 'string', multiple: true } } as const;
-  const options = { ...settingOptions, ...setFor, ...output, ...report, ...workers } as const;
+  const options = { ...settingOptions, ...setFor, ...output, ...report, ...workers, ...scale } as const;
   const { values, positionals } = parsed({ args: [...words], options, allowPositionals: true });
   if (positionals.length === 0) throw new UsageError('slice needs a model');
   return {
@@ -149,6 +164,7 @@ function slice(words: readonly string[]): Command {
     own: (values['set-for'] ?? []).map(ownWord),
     report: values.report,
     workers: workerCount(values.workers),
+    scale: scaleOf(values.scale),
   };
 }
 
@@ -159,6 +175,27 @@ function ownWord(word: string): OwnWord {
     throw new UsageError(`--set-for ${word}: expected MODEL:path=value`);
   }
   return { model, set };
+}
+
+function place(words: readonly string[]): Command {
+  const options = { ...settingOptions, ...output, ...scale } as const;
+  const { values, positionals } = parsed({ args: [...words], options, allowPositionals: true });
+  if (positionals.length === 0) throw new UsageError('place needs a model');
+  if (values.output === undefined) throw new UsageError('place needs -o OUT.stl');
+  return {
+    kind: 'place',
+    models: positionals,
+    out: values.output,
+    settings: settingWords(values),
+    scale: scaleOf(values.scale),
+  };
+}
+
+function scaleOf(word: string | undefined): number | undefined {
+  if (word === undefined) return undefined;
+  const factor = Number(word);
+  if (!(factor > 0 && factor <= 1e6)) throw new UsageError(`--scale ${word}: expected a number above 0`);
+  return factor;
 }
 
 function inspect(words: readonly string[]): Command {

@@ -1,7 +1,8 @@
 // What each command does.
 import { readFileSync, realpathSync } from 'node:fs';
-import { type Imported, importProfile as importedFrom, stem } from '../../www/src/files/files.ts';
+import { type Imported, importProfile as importedFrom, isGcode, stem } from '../../www/src/files/files.ts';
 import type { ModelSource, Standing } from '../../www/src/messages.ts';
+import { standing as placedPart, UNMOVED } from '../../www/src/parts.ts';
 import { ids, type Kind, settingsFiles } from '../../www/src/profiles/catalog.ts';
 import { type Layers, parseSaved, type SavedSettings } from '../../www/src/profiles/layers.ts';
 import { partsOf } from '../../www/src/slicer/gcode.ts';
@@ -10,7 +11,7 @@ import { type Command, type OwnWord, type SettingWords, UsageError, type Weighin
 import { openModel } from './disk-file.ts';
 import { FileError, reasonOf } from './errors.ts';
 import { loadFiles } from './files.ts';
-import { inWords } from './inspection.ts';
+import { gcodeInWords, inWords } from './inspection.ts';
 import { nodeLanes } from './lanes.ts';
 import { Output } from './output.ts';
 import { progressBar } from './progress.ts';
@@ -18,7 +19,7 @@ import { adhesionTable, directionTable, importTable, profileTable } from './tabl
 
 type Of<K extends Command['kind']> = Extract<Command, { kind: K }>;
 
-export async function slice({ models, out, settings, own, report, workers }: Of<'slice'>): Promise<void> {
+export async function slice({ models, out, settings, own, report, workers, scale }: Of<'slice'>): Promise<void> {
   const sources = models.map(openModel);
   const outputs = [out, report].filter((it) => it !== undefined);
   refuseClash(outputs, models);
@@ -29,7 +30,8 @@ export async function slice({ models, out, settings, own, report, workers }: Of<
     try {
       const found = await pool.unpack(sources);
       await pool.open(found);
-      const standing = await standingOf(pool, found, settings, own);
+      const placed = await scaled(pool, found.length, scale, all);
+      const standing = { ...(await standingOf(pool, found, settings, own)), ...placed };
       const gcode = await pool.slice({ settings: all, standing, progress: progress.show });
       const target = gcodeOut ?? new Output(gcode.joined.fileName);
       target.write(partsOf(gcode));
@@ -42,11 +44,48 @@ export async function slice({ models, out, settings, own, report, workers }: Of<
   });
 }
 
+export async function place({ models, out, settings, scale }: Of<'place'>): Promise<void> {
+  const sources = models.map(openModel);
+  refuseClash([out], models);
+  await withPool(1, async (pool) => {
+    const all = await resolve(pool, settings);
+    const target = new Output(out);
+    const { inspections } = await pool.open(await pool.unpack(sources));
+    target.write([await pool.stl(all, await scaled(pool, inspections.length, scale, all))]);
+    target.finish();
+  });
+}
+
+/** All open models so many times as large, side by side; undefined leaves that to the engine. */
+async function scaled(
+  pool: Pool,
+  count: number,
+  scale: number | undefined,
+  settings: string,
+): Promise<Standing | undefined> {
+  if (scale === undefined) return undefined;
+  const models = Array.from({ length: count }, (_, k) => k);
+  const edit = { kind: 'scale', factors: [scale, scale, scale] } as const;
+  const parts = await Promise.all(
+    models.map(async (model) => placedPart(model, model, await pool.edit(model, UNMOVED, edit))),
+  );
+  const matrices = parts.flatMap(({ matrix }) => matrix);
+  const boxes = parts.flatMap(({ box }) => box);
+  return { models, placements: [...(await pool.arrange(matrices, boxes, settings))] };
+}
+
 export async function inspect({ model, report }: Of<'inspect'>): Promise<void> {
   const source = openModel(model);
   refuseClash(report === undefined ? [] : [report], [model]);
   await withPool(1, async (pool) => {
     const reportOut = maybe(report);
+    if (isGcode(source)) {
+      const { figures } = await pool.gcode(source, await pool.settings([], []));
+      reportOut?.write([figures, '\n']);
+      reportOut?.finish();
+      if (report !== '-') new Output('-').write([gcodeInWords(figures)]);
+      return;
+    }
     const { inspections } = await pool.open(await pool.unpack([source]));
     // A file of several parts has as many inspections.
     reportOut?.write([inspections.length === 1 ? (inspections[0] ?? '{}') : `[${inspections.join(',')}]`, '\n']);

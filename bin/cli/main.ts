@@ -26,6 +26,8 @@ async function perform(command: Command): Promise<void> {
   switch (command.kind) {
     case 'slice':
       return commands.slice(command);
+    case 'place':
+      return commands.place(command);
     case 'inspect':
       return commands.inspect(command);
     case 'draw':

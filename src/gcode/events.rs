@@ -1,7 +1,7 @@
 //! What happens between layers by the user's wish: pauses, changes of filament, lines of their own.
 
+use super::GcodeOptions;
 use super::start::{GcodeError, PLACEHOLDERS, expand};
-use super::{GcodeOptions, OutputOptions};
 
 /// How far the nozzle rises above the part for a pause, mm.
 pub(super) const PAUSE_LIFT: f64 = 5.0;
@@ -55,13 +55,9 @@ impl LayerEvent {
 
 /// Checks the settings `gcode.*`, so that [`super::join()`] cannot fail on them later.
 pub fn check_output(options: &GcodeOptions) -> Result<(), GcodeError> {
-    let OutputOptions { arc_fitting, ref events, .. } = options.output;
+    let events = &options.output.events;
     let flavor = options.printer.flavor;
     let firmware = format!("{flavor:?}").to_lowercase();
-    if arc_fitting && !flavor.has_arcs() {
-        let cause = format!("the firmware {firmware} is not known to take arcs");
-        return Err(GcodeError::Contradiction { setting: "gcode.arc_fitting".to_owned(), cause });
-    }
     for (i, event) in events.iter().enumerate() {
         let wrong = |cause: &str| GcodeError::Contradiction {
             setting: format!("gcode.events[{i}]"),

@@ -21,6 +21,7 @@ mod estimate;
 mod events;
 mod extrude;
 mod flavor;
+pub mod inspect;
 mod join;
 mod label;
 mod options;

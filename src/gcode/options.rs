@@ -254,10 +254,13 @@ crate::options! {
     /// What the file holds besides the moves of the print.
     pub struct OutputOptions {
         /// Writes beads that follow a circle as arcs, G2 and G3: smaller files that older boards read
-        /// faster.
+        /// faster. A firmware that is not known to take arcs gets none.
         arc_fitting: bool = false, "Arcs";
         /// How far an arc may be from the straight pieces that it replaces.
         arc_tolerance: f64 = 0.0125, "Arc tolerance", "mm", 0.001..=0.02;
+        /// Pictures of the part in the head of the file for printers that show them: sizes in pixels with
+        /// PNG or QOI, such as `16x16/QOI, 220x124/PNG`; empty for none.
+        thumbnails: String = String::new(), "Thumbnails";
         /// Pauses, changes of filament and lines of your own, each before a layer given by its number
         /// (counted from 0) or by a height: `[{"layer": 10, "kind": "pause"}, {"z": 5, "kind":
         /// "filament_change"}, {"z": 8, "kind": "custom", "gcode": "M117 half-way"}]`.

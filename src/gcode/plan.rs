@@ -282,8 +282,9 @@ impl<'a> Planner<'a> {
     /// A bead along as many of these places as lie on an arc; how many pieces it replaces. It has the
     /// plastic of all of them.
     fn arc(&mut self, places: &[Place], area: f64, feed: u32) -> Option<usize> {
-        let output = &self.options.output;
-        let straight = !output.arc_fitting || self.spiral.is_some();
+        let GcodeOptions { output, printer, .. } = self.options;
+        let fits_arcs = output.arc_fitting && printer.flavor.has_arcs();
+        let straight = !fits_arcs || self.spiral.is_some();
         let (last, curve) = (!straight).then(|| fit_arc(places, output.arc_tolerance)).flatten()?;
         let pieces = places[..=last].windows(2);
         let filament = pieces.map(|w| self.feeder.filament(area * w[0].distance(w[1]))).sum();

@@ -1,9 +1,10 @@
 //! G-code text to moves: for the preview, for measuring what a file really says, and for the tests.
 //!
-//! Understands G0 to G3 (arcs become chords), G20, G21, G28, G90, G91, G92, M82, M83 and M204, and the
-//! comments by which PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio and Cura name layers, types,
-//! widths and heights. Everything else is passed over. A line that cannot be understood is left out
-//! and reported; no input makes it panic or return a number that is not finite.
+//! Understands G0 to G3 (arcs become chords), G20, G21, G28, G90, G91, G92, M82, M83, temperatures, fan,
+//! tools, the limits that M201 and M203 to M205 state, and the comments by which PrusaSlicer, SuperSlicer,
+//! OrcaSlicer, Bambu Studio and Cura name layers, types, widths and heights. Where none states a height it
+//! is what a layer rises above the one below. Everything else is passed over. A line that cannot be
+//! understood is left out and reported; no input makes it panic or return a number that is not finite.
 //!
 //! E is relative after M83 and also while G91 is in force, as in Marlin 1 and Prusa's firmware.
 
@@ -30,7 +31,7 @@ const POWERS_OF_TEN: [f64; 16] =
     [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
 /// Rise of z, mm, that starts a new layer in a file that does not mark its layers.
-const LAYER_RISE: f64 = 0.005;
+pub(super) const LAYER_RISE: f64 = 0.005;
 
 /// A file as layers.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -211,8 +212,8 @@ impl Builder {
     }
 }
 
-/// Width of the bead of this volume; 0 if there is no height to compute it from.
-fn width_of(volume: f64, length: f64, height: f64) -> f64 {
+/// Width of the bead of this volume, mm; 0 if there is no height to compute it from.
+pub fn width_of(volume: f64, length: f64, height: f64) -> f64 {
     if height <= 0.0 || length <= 0.0 {
         return 0.0;
     }
@@ -242,7 +243,7 @@ pub struct ReadMove {
     pub role: Option<Role>,
     /// Width stated last, mm.
     pub width: Option<f64>,
-    /// Height stated last, mm.
+    /// Height stated last, or what the layer of a bead rises above the one below, mm.
     pub height: Option<f64>,
     /// Duty of the part's fan, 0 to 255.
     pub fan: u8,
@@ -272,11 +273,12 @@ impl ReadMove {
 #[derive(Debug)]
 pub struct Reader<'a> {
     rest: &'a [u8],
-    line: u32,
-    machine: Machine,
-    labels: Labels,
+    pub(super) line: u32,
+    pub(super) machine: Machine,
+    pub(super) labels: Labels,
+    levels: Levels,
     /// Moves of the last line not handed out yet: the chords of an arc.
-    waiting: VecDeque<ReadMove>,
+    pub(super) waiting: VecDeque<ReadMove>,
     /// Lines that could not be understood, the first ones.
     pub warnings: Vec<ReadWarning>,
     /// Number of all such lines.
@@ -285,29 +287,76 @@ pub struct Reader<'a> {
 
 /// State of the machine that the text drives.
 #[derive(Debug, Default)]
-struct Machine {
+pub(super) struct Machine {
     /// Where the nozzle is, mm.
-    at: [f64; 3],
+    pub(super) at: [f64; 3],
     /// What G92 adds to the text's coordinates to get there.
-    shift: [f64; 3],
+    pub(super) shift: [f64; 3],
     /// The text's E.
-    e: f64,
-    feed: f64,
-    acceleration: Option<f64>,
-    relative: bool,
-    relative_e: bool,
-    inches: bool,
-    fan: u8,
-    tool: u8,
+    pub(super) e: f64,
+    /// Feed rate, mm/min.
+    pub(super) feed: f64,
+    pub(super) acceleration: Option<f64>,
+    pub(super) relative: bool,
+    pub(super) relative_e: bool,
+    pub(super) inches: bool,
+    pub(super) fan: u8,
+    pub(super) tool: u8,
+    /// Temperatures asked for last: nozzle, bed.
+    pub(super) temperatures: [f64; 2],
+    pub(super) stated: StatedLimits,
+}
+
+/// What a file says of its machine, mm, mm/s and mm/s2: M201 and M203 to M205, or Klipper's
+/// SET_VELOCITY_LIMIT. The lists are for x and y (the lower one), z, and the filament.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StatedLimits {
+    /// Highest accelerations.
+    pub max_acceleration: [Option<f64>; 3],
+    /// Highest speeds.
+    pub max_speed: [Option<f64>; 3],
+    /// Acceleration of travels.
+    pub travel_acceleration: Option<f64>,
+    /// Acceleration of retractions.
+    pub retract_acceleration: Option<f64>,
+    /// Junction deviation.
+    pub junction_deviation: Option<f64>,
 }
 
 /// What comments said last.
 #[derive(Debug, Default)]
-struct Labels {
+pub(super) struct Labels {
+    pub(super) layer: u32,
+    /// The comment that marks layers: a file may hold another slicer's as well, and the first one counts.
+    mark: Option<&'static str>,
+    pub(super) role: Option<Role>,
+    pub(super) width: Option<f64>,
+    pub(super) height: Option<f64>,
+}
+
+/// Heights of layers that the file does not state.
+#[derive(Debug, Default)]
+struct Levels {
+    /// Where the last bead ended.
+    z: f64,
+    /// Top of the layer below.
+    below: f64,
     layer: u32,
-    role: Option<Role>,
-    width: Option<f64>,
-    height: Option<f64>,
+}
+
+impl Levels {
+    /// What the layer of a bead that ends at `z` rises above the one below.
+    fn height(&mut self, z: f64, layer: u32) -> f64 {
+        let is_new = if layer > 0 { layer != self.layer } else { (z - self.z).abs() >= LAYER_RISE };
+        if is_new {
+            // A prime line before the first mark is no layer; neither is what stands higher.
+            let is_first = layer > 0 && self.layer == 0;
+            self.below = if is_first || z < self.z { 0.0 } else { self.z };
+            self.layer = layer;
+        }
+        self.z = z;
+        (z - self.below).max(0.0)
+    }
 }
 
 impl<'a> Reader<'a> {
@@ -323,6 +372,7 @@ impl<'a> Reader<'a> {
             line: 0,
             machine: Machine { at, ..Machine::default() },
             labels: Labels::default(),
+            levels: Levels::default(),
             waiting: VecDeque::new(),
             warnings: Vec::new(),
             malformed: 0,
@@ -346,7 +396,8 @@ impl<'a> Reader<'a> {
         Some(line.trim_ascii())
     }
 
-    fn take_line(&mut self, line: &[u8]) {
+    /// Obeys a line; its moves wait to be handed out.
+    pub(super) fn take_line(&mut self, line: &[u8]) {
         if let Some(comment) = line.strip_prefix(b";") {
             self.labels.take_comment(comment);
         } else if self.take_command(line).is_none() {
@@ -410,9 +461,15 @@ impl<'a> Reader<'a> {
         if from == to && filament_mm == 0.0 {
             return;
         }
+        let lays_bead = filament_mm > 0.0 && from[..2] != to[..2];
+        let layer = self.labels.layer;
+        let height = match self.labels.height {
+            None if lays_bead => Some(self.levels.height(to[2], layer)),
+            stated => stated,
+        };
         self.waiting.push_back(ReadMove {
             line: self.line,
-            layer: self.labels.layer,
+            layer,
             from,
             to,
             filament_mm,
@@ -420,7 +477,7 @@ impl<'a> Reader<'a> {
             acceleration: self.machine.acceleration,
             role: self.labels.role,
             width: self.labels.width,
-            height: self.labels.height,
+            height,
             fan: self.machine.fan,
             tool: self.machine.tool,
         });
@@ -519,11 +576,18 @@ impl Machine {
         match command_number(rest) {
             Some((82, _)) => self.relative_e = false,
             Some((83, _)) => self.relative_e = true,
+            Some((201, rest)) => state_axes(&mut self.stated.max_acceleration, rest),
+            Some((203, rest)) => state_axes(&mut self.stated.max_speed, rest),
             Some((204, rest)) => {
                 // P is for beads; S, in older firmwares, for all moves.
                 let value = [b'P', b'S'].iter().find_map(|&letter| word_of(rest, letter));
-                self.acceleration = value.filter(|&a| a > 0.0).or(self.acceleration);
+                state(&mut self.acceleration, value);
+                state(&mut self.stated.travel_acceleration, word_of(rest, b'T'));
+                state(&mut self.stated.retract_acceleration, word_of(rest, b'R'));
             }
+            Some((205, rest)) => state(&mut self.stated.junction_deviation, word_of(rest, b'J')),
+            Some((104 | 109, rest)) => self.heat(0, rest),
+            Some((140 | 190, rest)) => self.heat(1, rest),
             Some((106, rest)) => {
                 let duty = word_of(rest, b'S').unwrap_or(255.0);
                 self.fan = duty.clamp(0.0, 255.0) as u8;
@@ -533,12 +597,22 @@ impl Machine {
         }
     }
 
-    /// Klipper's SET_VELOCITY_LIMIT ACCEL=value.
+    /// Sets a heater; R waits for cooling as well.
+    fn heat(&mut self, heater: usize, rest: &[u8]) {
+        let value = [b'S', b'R'].iter().find_map(|&letter| word_of(rest, letter));
+        self.temperatures[heater] = value.unwrap_or(self.temperatures[heater]);
+    }
+
+    /// Klipper's SET_VELOCITY_LIMIT VELOCITY=value ACCEL=value.
     fn take_macro(&mut self, code: &[u8]) {
         let mut words = code.split(u8::is_ascii_whitespace);
-        if words.next().is_some_and(|name| name.eq_ignore_ascii_case(b"SET_VELOCITY_LIMIT")) {
-            let value = words.find_map(|w| w.to_ascii_uppercase().strip_prefix(b"ACCEL=").and_then(number));
-            self.acceleration = value.map(|(a, _)| a).filter(|&a| a > 0.0).or(self.acceleration);
+        if !words.next().is_some_and(|name| name.eq_ignore_ascii_case(b"SET_VELOCITY_LIMIT")) {
+            return;
+        }
+        for word in words.map(<[u8]>::to_ascii_uppercase) {
+            let value = |name: &[u8]| word.strip_prefix(name).and_then(number).map(|(value, _)| value);
+            state(&mut self.acceleration, value(b"ACCEL="));
+            state(&mut self.stated.max_speed[0], value(b"VELOCITY="));
         }
     }
 
@@ -550,13 +624,28 @@ impl Machine {
     }
 }
 
+/// Takes over a positive value.
+fn state(known: &mut Option<f64>, value: Option<f64>) {
+    *known = value.filter(|&v| v > 0.0).or(*known);
+}
+
+/// Takes over the words X and Y, Z, and E of a limit.
+fn state_axes([xy, z, e]: &mut [Option<f64>; 3], rest: &[u8]) {
+    let lower = [b'X', b'Y'].iter().filter_map(|&letter| word_of(rest, letter)).reduce(f64::min);
+    state(xy, lower);
+    state(z, word_of(rest, b'Z'));
+    state(e, word_of(rest, b'E'));
+}
+
 impl Labels {
     fn take_comment(&mut self, comment: &[u8]) {
         // Only printable words matter here; a comment in another encoding is none of them.
         let Ok(text) = std::str::from_utf8(comment) else { return };
         let text = text.trim();
-        if text == "LAYER_CHANGE" || text == "CHANGE_LAYER" || text.starts_with("LAYER:") {
-            self.layer = self.layer.saturating_add(1);
+        let changes = ["LAYER_CHANGE", "CHANGE_LAYER"].into_iter().find(|mark| text == *mark);
+        if let Some(mark) = changes.or(text.starts_with("LAYER:").then_some("LAYER:")) {
+            let counts = *self.mark.get_or_insert(mark) == mark;
+            self.layer = self.layer.saturating_add(u32::from(counts));
             return;
         }
         let Some((name, value)) = text.split_once(':') else { return };
@@ -564,7 +653,7 @@ impl Labels {
         match name {
             "TYPE" | "FEATURE" => self.role = role_named(value),
             "WIDTH" | "LINE_WIDTH" => self.width = length(value),
-            "HEIGHT" | "LAYER_HEIGHT" | "Layer height" => self.height = length(value),
+            "HEIGHT" | "LAYER_HEIGHT" => self.height = length(value),
             _ => {}
         }
     }
@@ -587,12 +676,14 @@ fn role_named(name: &str) -> Option<Role> {
         "Top solid infill" | "Top surface" => Role::TopSkin,
         "Solid infill" | "Internal solid infill" | "SKIN" => Role::SolidInfill,
         "Internal infill" | "Sparse infill" | "FILL" => Role::Infill,
-        "Bridge infill" | "Bridge" | "Internal Bridge" => Role::Bridge,
+        "Bridge infill" | "Bridge" | "Internal Bridge" | "Internal bridge infill" => Role::Bridge,
         "Ironing" => Role::Ironing,
         "Skirt/Brim" | "Skirt" | "SKIRT" => Role::Skirt,
         "Brim" => Role::Brim,
         "Support material" | "Support" | "SUPPORT" => Role::Support,
-        "Support material interface" | "Support interface" | "SUPPORT-INTERFACE" => Role::SupportInterface,
+        "Support material interface" | "Support interface" | "Support transition" | "SUPPORT-INTERFACE" => {
+            Role::SupportInterface
+        }
         "Custom" => Role::Prime,
         "Wipe tower" | "Prime tower" | "PRIME-TOWER" => Role::WipeTower,
         _ => return None,
@@ -823,6 +914,47 @@ mod tests {
         // Width from volume: 2.4052819 / 9 = 0.2672535 mm2; less pi 0.01 and over 0.2 is 1.1791882 + 0.2.
         let width = read(cura.as_bytes(), 1.75).layers[0].strands[0].segments[0].width;
         assert!((width - 1.379_188).abs() < 1e-5, "{width}");
+    }
+
+    #[test]
+    fn heights_that_no_comment_states_are_those_between_layers() {
+        // A prime line at 0.28 mm is no layer; layers of 0.3 and 0.2 mm, the second with a hop.
+        let cura =
+            "G1 Z0.28\nG1 X9 E1\n;LAYER:0\nG0 Z0.3\nG1 X1 E2\n;LAYER:1\nG0 Z0.9\nG0 X5\nG0 Z0.5\nG1 X9 E3\n";
+        let heights = |text: &str| {
+            let beads = moves(text).into_iter().filter(ReadMove::lays_bead);
+            beads.map(|m| (m.height.unwrap_or(0.0) * 1000.0).round()).collect::<Vec<_>>()
+        };
+        assert_eq!(heights(cura), [280.0, 300.0, 200.0]);
+        // Without marks each height is a layer; the next object begins at the bed again.
+        assert_eq!(
+            heights("M83\nG1 Z.3\nG1 X9 E1\nG1 Z.5\nG1 X1 E1\nG1 X2 E1\nG1 Z.3\nG1 X9 E1"),
+            [300.0, 200.0, 200.0, 300.0]
+        );
+    }
+
+    #[test]
+    fn marks_of_another_slicer_are_no_layers() {
+        let both = ";LAYER_CHANGE\n;LAYER:0\nG1 X1 E1\n;LAYER_CHANGE\n;LAYER:1\nG1 X2 E2\n";
+        assert_eq!(read(both.as_bytes(), 1.75).layers.len(), 2);
+    }
+
+    #[test]
+    fn stated_limits_are_kept() {
+        let mut reader = Reader::new(
+            b"M201 X1250 Y1000 Z400 E4000\nM203 X180 Y200 Z12 E80\nM204 P900 R1500 T1100\nM205 X8 J0.02\n\
+              M104 S215\nM190 R60\nG1 X1 F600\nSET_VELOCITY_LIMIT VELOCITY=300 ACCEL=5000\nG1 X2",
+        );
+        let accelerations: Vec<_> = reader.by_ref().map(|m| m.acceleration).collect();
+        assert_eq!(accelerations, [Some(900.0), Some(5000.0)]);
+        let expected = StatedLimits {
+            max_acceleration: [Some(1000.0), Some(400.0), Some(4000.0)],
+            max_speed: [Some(300.0), Some(12.0), Some(80.0)],
+            travel_acceleration: Some(1100.0),
+            retract_acceleration: Some(1500.0),
+            junction_deviation: Some(0.02),
+        };
+        assert_eq!((reader.machine.stated, reader.machine.temperatures), (expected, [215.0, 60.0]));
     }
 
     #[test]

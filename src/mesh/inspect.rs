@@ -118,7 +118,9 @@ impl LoadedModel {
         let of_file = file_warnings(inspection.triangles, parsed.trailing_bytes, parsed.endsolid_missing);
         let of_mesh =
             [repair_warnings(&repairs), condition_warnings(&condition), volume_warning(&inspection)];
-        inspection.warnings = of_file.into_iter().chain(of_mesh.into_iter().flatten()).collect();
+        let of_size = unit_warning(&inspection.bounds);
+        inspection.warnings =
+            of_file.into_iter().chain(of_mesh.into_iter().flatten()).chain(of_size).collect();
         Ok(LoadedModel { mesh, inspection })
     }
 }
@@ -203,6 +205,25 @@ fn volume_warning(inspection: &Inspection) -> Vec<Warning> {
     let is_flat = inspection.volume_mm3.abs() <= FLAT * inspection.area_mm2 * inspection.area_mm2.sqrt();
     let message = "the surface encloses no volume".to_owned();
     is_flat.then_some(Warning { code: "no_volume", message }).into_iter().collect()
+}
+
+/// A part so small that its file counts another unit, perhaps; the size is never changed for it.
+fn unit_warning(bounds: &Extent) -> Option<Warning> {
+    /// Parts with no side longer than this are metres, mm: a third of a metre at most.
+    const METRES: f32 = 0.35;
+    /// The like for inches: four of them. Few prints are smaller than 4 mm.
+    const INCHES: f32 = 4.0;
+    let longest = (0..3).map(|i| bounds.max[i] - bounds.min[i]).fold(0.0, f32::max);
+    let (code, unit, factor) = match longest {
+        l if l <= METRES => ("unit_metre", "metres", 1000.0),
+        l if l <= INCHES => ("unit_inch", "inches", 25.4),
+        _ => return None,
+    };
+    let message = format!(
+        "its longest side has {longest:.3} mm: perhaps the file counts {unit}; {factor} times as large it has {:.1} mm",
+        longest * factor
+    );
+    Some(Warning { code, message })
 }
 
 /// "1 triangle", "2 triangles".

@@ -18,7 +18,7 @@ pub enum Viewpoint {
 
 impl Viewpoint {
     /// Unit vectors to the right, up and towards the eye.
-    pub(super) fn frame(self) -> [DVec3; 3] {
+    pub(crate) fn frame(self) -> [DVec3; 3] {
         match self {
             Viewpoint::Top => [DVec3::X, DVec3::Y, DVec3::Z],
             Viewpoint::Front => [DVec3::X, DVec3::Z, DVec3::NEG_Y],

@@ -1,17 +1,51 @@
-//! Checks before printing that need no slicing: settings that contradict printer or material, and
-//! places on the bed where nothing may stand.
+//! Checks before printing. Here those that need no slicing: settings that contradict printer or
+//! material, places on the bed where nothing may stand, parts that do not stand on it.
+
+mod places;
+
+pub use places::Finding;
+pub(super) use places::{Findings, told};
 
 use super::Warning;
 use crate::polygon::measure::Bounds;
 use crate::polygon::{DVec2, PolygonSet};
 use crate::settings::Settings;
+use crate::support::SupportMethod;
+
+/// A part as it stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stand {
+    /// Its box on the bed.
+    pub footprint: Bounds,
+    /// Its lowest point, mm above the bed.
+    pub lowest: f64,
+}
 
 /// What is wrong with settings and places, each with settings that would mend it where there are any.
-pub(super) fn check(settings: &Settings, footprints: &[Bounds]) -> Vec<Warning> {
+pub(super) fn check(settings: &Settings, stands: &[Stand]) -> Vec<Warning> {
     let mut found = temperatures(settings);
     found.extend(pressure_advance(settings));
-    found.extend(footprints.iter().flat_map(|&b| forbidden(settings, b)));
+    found.extend(arcs(settings));
+    found.extend(stands.iter().flat_map(|it| forbidden(settings, it.footprint)));
+    found.extend(stands.iter().flat_map(|it| off_bed(settings, it)));
     found
+}
+
+/// Arcs for a firmware that is not known to take them.
+fn arcs(settings: &Settings) -> Option<Warning> {
+    let message = "gcode.arc_fitting: this firmware is not known to take arcs; straight pieces are written";
+    (settings.gcode.arc_fitting && !settings.printer.flavor.has_arcs())
+        .then(|| Warning::on_job("no_arcs", message.to_owned()).fixed_by("gcode.arc_fitting", false))
+}
+
+/// A part whose first layer would be laid in the air.
+fn off_bed(settings: &Settings, part: &Stand) -> Option<Warning> {
+    // Layers are cut at half their height.
+    let hangs =
+        part.lowest > settings.layers.first_height / 2.0 && settings.support.method == SupportMethod::None;
+    let message =
+        format!("the part does not touch the bed: its lowest point is {:.2} mm above it", part.lowest);
+    hangs.then(|| Warning::on_layer("not_on_bed", message, 0, part.footprint.centre()))
 }
 
 /// Temperatures that the material does not suit, or the printer does not reach.

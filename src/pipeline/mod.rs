@@ -19,8 +19,9 @@ use std::fmt;
 
 use glam::DMat4;
 
+pub use check::{Finding, Stand};
 pub use compare::{Alternative, Alternatives};
-pub use place::{FitError, Placed, arrange, place_as_told, place_on_bed};
+pub use place::{FitError, FitHint, Placed, arrange, place_as_told, place_on_bed};
 pub use print::Print;
 pub use range::{PRINT_RESOLUTION, RangeMeta, RangePlan, RangeResult, Share};
 pub use sequence::SequenceError;
@@ -41,6 +42,7 @@ use crate::gcode::{
 use crate::mesh::LoadedModel;
 use crate::mesh::{Box3, Mesh};
 use crate::orientation::{OrientationError, OrientationReport};
+use crate::picture::{Thumbnail, parse_thumbnails, thumbnail_lines};
 use crate::polygon::measure::Bounds;
 use crate::settings::{OwnSettings, Settings, SettingsError};
 use crate::slice::{LayerOptions, LayerSpec};
@@ -145,6 +147,8 @@ pub struct Job {
     /// What is known of each layer so far.
     layers: Vec<Option<LayerSummary>>,
     warnings: Vec<Warning>,
+    /// Weak places of the layers worked so far.
+    findings: Vec<Finding>,
     timing: Timing,
     started_ms: f64,
 }
@@ -181,19 +185,20 @@ impl Job {
 
     fn standing(
         models: &[NamedModel],
-        Placed { mesh, placements, footprints }: Placed,
+        Placed { mesh, placements, stands }: Placed,
         turned: Turned,
         settings: Settings,
         started_ms: f64,
     ) -> Result<Job, JobError> {
-        let remarks = check::check(&settings, &footprints);
+        let remarks = check::check(&settings, &stands);
         let names = models.iter().map(|m| m.name.as_str());
-        let objects = labelled_objects(names.zip(footprints), &settings.printer);
+        let objects = labelled_objects(names.zip(stands.iter().map(|it| it.footprint)), &settings.printer);
         let prints = sequence::prints_of(models, mesh, &settings)?;
         Ok(Job {
             name: models.first().map_or_else(String::new, |m| m.name.clone()),
             layers: Vec::new(),
             warnings: model_warnings(models).into_iter().chain(turned.warnings).chain(remarks).collect(),
+            findings: Vec::new(),
             orientation: turned.report,
             support: None,
             own: models.iter().flat_map(own_lines).collect(),
@@ -226,6 +231,13 @@ impl Job {
     /// The models of the first print in bed coordinates.
     pub fn mesh(&self) -> &Mesh {
         self.first_print().mesh()
+    }
+
+    /// All models in bed coordinates, whatever is printed when.
+    pub fn plate(&self) -> Mesh {
+        let mut plate = Mesh::default();
+        self.prints.iter().for_each(|print| plate.append(print.mesh()));
+        plate
     }
 
     /// The settings of the job.
@@ -332,6 +344,7 @@ impl Job {
     pub fn add(&mut self, meta: RangeMeta) {
         self.timing.add(&meta.timing);
         self.warnings.extend(meta.warnings);
+        self.findings.extend(meta.findings);
         for (place, summary) in (meta.first..).zip(meta.summaries) {
             self.layers[place] = Some(summary);
         }
@@ -346,11 +359,15 @@ impl Job {
             self.layers.iter_mut().enumerate().map(take).collect::<Result<_, _>>()?;
         let started = clock();
         let settings = [self.settings.lines(), std::mem::take(&mut self.own)].concat();
-        let notes = FileNotes { head: &[], settings: &settings };
+        let thumbnails = thumbnails_of(&self.settings)?;
+        let head =
+            if thumbnails.is_empty() { String::new() } else { thumbnail_lines(&self.plate(), &thumbnails) };
+        let notes = FileNotes { head: head.as_bytes(), settings: &settings };
         let options = GcodeOptions { objects: self.objects.clone(), ..self.settings.gcode_options() };
         let joined = join(&summaries, &options, &notes).map_err(JobError::Gcode)?;
         self.timing.gcode += clock() - started;
         self.timing.total = clock() - self.started_ms + self.timing.parse;
+        self.warnings.extend(check::told(&mut self.findings, &self.settings));
         self.warnings.stable_sort_by_key(|w| w.layer);
         let report = self.report(&joined);
         let file_name = self.file_name(report.time_s);
@@ -428,7 +445,14 @@ fn checked(settings: Settings) -> Result<Settings, JobError> {
     crate::gcode::check_output(&settings.gcode_options()).map_err(JobError::Gcode)?;
     check_tools(&settings).map_err(JobError::Tools)?;
     check_heights(&settings.layers)?;
+    thumbnails_of(&settings)?;
     if settings.layers.spiral_vase { vase_of(settings) } else { Ok(settings) }
+}
+
+/// The thumbnails that `gcode.thumbnails` asks for.
+fn thumbnails_of(settings: &Settings) -> Result<Vec<Thumbnail>, JobError> {
+    parse_thumbnails(&settings.gcode.thumbnails)
+        .map_err(|cause| JobError::contradiction("gcode.thumbnails", cause))
 }
 
 /// Adaptive heights need room between their limits.

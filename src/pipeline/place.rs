@@ -4,9 +4,10 @@ use std::fmt;
 
 use glam::{DMat3, DMat4, DVec3, dvec3};
 
+use super::check::Stand;
 use super::sequence;
 use crate::gcode::{BedShape, PrinterOptions};
-use crate::mesh::{Box3, Mesh, TransformError};
+use crate::mesh::{Box3, Edit, Mesh, TransformError};
 use crate::polygon::measure::Bounds;
 use crate::polygon::{DVec2, trig};
 use crate::settings::Settings;
@@ -68,6 +69,18 @@ pub enum FitHint {
     },
 }
 
+impl FitHint {
+    /// The change to every part that does it.
+    pub fn edit(self) -> Edit {
+        match self {
+            FitHint::Turned { degrees } => Edit::Turn { axis: 2, angle_deg: f64::from(degrees) },
+            FitHint::Laid { up: "x" } => Edit::TurnUp { up: [1.0, 0.0, 0.0] },
+            FitHint::Laid { .. } => Edit::TurnUp { up: [0.0, 1.0, 0.0] },
+            FitHint::Scaled { percent } => Edit::Scale { factors: [f64::from(percent) / 100.0; 3] },
+        }
+    }
+}
+
 impl fmt::Display for FitError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let on_round = |round: &bool| if *round { " with a round bed" } else { "" };
@@ -102,8 +115,8 @@ pub struct Placed {
     pub mesh: Mesh,
     /// For each model the matrix from its file's coordinates to the bed's.
     pub placements: Vec<DMat4>,
-    /// For each model its box on the bed.
-    pub footprints: Vec<Bounds>,
+    /// For each model where it stands.
+    pub stands: Vec<Stand>,
 }
 
 /// Drops the models on the bed, row by row in their order, the whole group centred. Empty models
@@ -124,23 +137,23 @@ pub fn place_on_bed(models: &[&Mesh], settings: &Settings, own: &[Settings]) -> 
         return Err(too_large());
     }
     let placements: Vec<DMat4> = moves.iter().copied().map(DMat4::from_translation).collect();
-    let (mut mesh, mut footprints) = (Mesh::default(), Vec::new());
+    let (mut mesh, mut stands) = (Mesh::default(), Vec::new());
     for (model, placement) in models.iter().zip(&placements) {
         let placed = model.transformed(placement).expect("what fits the bed is within reach");
         if !stands_on_bed(&placed, printer) {
             return Err(too_large());
         }
-        footprints.push(footprint(&placed));
+        stands.push(stand_of(&placed));
         mesh.append(&placed);
     }
-    Ok(Placed { mesh, placements, footprints })
+    Ok(Placed { mesh, placements, stands })
 }
 
 /// What a model covers of the bed; nothing at all for an empty one.
-fn footprint(placed: &Mesh) -> Bounds {
-    let box_of = |b: Box3| [b.min, b.max].map(|v| v.as_dvec3().truncate());
-    let [min, max] = placed.bounds().map_or_else(Default::default, box_of);
-    Bounds { min, max }
+fn stand_of(placed: &Mesh) -> Stand {
+    let box_of = |b: Box3| [b.min, b.max].map(|v| v.as_dvec3());
+    let [low, high] = placed.bounds().map_or_else(Default::default, box_of);
+    Stand { footprint: Bounds { min: low.truncate(), max: high.truncate() }, lowest: low.z }
 }
 
 /// Whether no point is beside a round bed; boxes tell for others.
@@ -230,7 +243,7 @@ pub fn place_as_told(
     let front_left = printer.bed().min.extend(0.0);
     let room = [front_left, front_left + room_of(printer)];
     let round = printer.bed_shape == BedShape::Round;
-    let (mut mesh, mut footprints) = (Mesh::default(), Vec::new());
+    let (mut mesh, mut stands) = (Mesh::default(), Vec::new());
     for (index, (model, placement)) in models.iter().zip(placements).enumerate() {
         let placed = model.transformed(placement).map_err(|cause| FitError::Placement { index, cause })?;
         if let Some(b) = placed.bounds() {
@@ -241,10 +254,10 @@ pub fn place_as_told(
                 return Err(FitError::Outside { index, reach, room, round });
             }
         }
-        footprints.push(footprint(&placed));
+        stands.push(stand_of(&placed));
         mesh.append(&placed);
     }
-    Ok(Placed { mesh, placements: placements.to_vec(), footprints })
+    Ok(Placed { mesh, placements: placements.to_vec(), stands })
 }
 
 /// Width and depth of the smallest rectangle around the bed, and the printer's height, mm.

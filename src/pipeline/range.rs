@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::report::{Timing, Warning};
-use super::{Clock, check, vase};
+use super::{Clock, Finding, check, vase};
 use crate::gcode::{GcodeOptions, LabelledObject, LayerInput, LayerSummary, Spiral, layer_gcode};
 use crate::mesh::Mesh;
 use crate::polygon::{DVec2, Join, Polygon, PolygonSet};
@@ -128,6 +128,8 @@ pub struct RangeMeta {
     pub summaries: Vec<LayerSummary>,
     /// Remarks on these layers.
     pub warnings: Vec<Warning>,
+    /// Weak places of these layers.
+    pub findings: Vec<Finding>,
     /// Where the time went.
     pub timing: Timing,
 }
@@ -140,10 +142,11 @@ impl RangeResult {
 
     /// Works layers of one print, which has `before` layers of the file before it.
     pub(super) fn add_run(&mut self, before: u32, bodies: &[BodyPiece<'_>], clock: Clock) {
-        let told = self.meta.warnings.len();
+        let (told, found) = (self.meta.warnings.len(), self.meta.findings.len());
         let bodies = cut_bodies(bodies, &mut self.meta, clock);
         self.write(&bodies, clock);
         self.meta.warnings[told..].iter_mut().for_each(|warning| warning.raise(before));
+        self.meta.findings[found..].iter_mut().for_each(|finding| finding.raise(before));
     }
 
     /// Lays and writes the layers, body after body on each of them.
@@ -512,6 +515,10 @@ fn lay_paths(
     }
     let after_regions = clock();
 
+    let findings = check::Findings { layer: spec.index, settings };
+    if let Some(below) = over_air {
+        meta.findings.extend(findings.over_air(&exposures[place].bottom, below, &bridges));
+    }
     let fills = LayerFills { plan, spec, bead, overlap };
     let mut parts = LayerParts { walls: walls.loops, ..LayerParts::default() };
     parts.foundation = plan.laid.get(place - plan.first).cloned().unwrap_or_default();
@@ -520,6 +527,7 @@ fn lay_paths(
     gaps.extend(fills.fill_areas(regions, bridges, &mut parts));
     let fallbacks = fills.fill_thin_places(&walls.thin_outer, &outline, gaps, &mut parts);
     meta.warnings.extend(fallback_warning(&fallbacks, spec.index));
+    meta.findings.extend(findings.thin_walls(&outline, &parts));
     set_seams(plan, spec, &mut parts);
     let ordered = order_layer(parts, &outline, spec.index, settings.seam.position);
     let ordered = match over_air {

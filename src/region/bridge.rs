@@ -38,6 +38,8 @@ pub struct Bridge {
     pub area: PolygonSet,
     /// Unit vector along its lines.
     pub direction: DVec2,
+    /// Longest stretch of a line in the air, mm.
+    pub span: f64,
 }
 
 /// The bridges in the fill `inner` of a layer that lies on the layer `below`; `bead_width` in mm.
@@ -49,21 +51,22 @@ pub fn bridges(inner: &PolygonSet, below: &PolygonSet, bead_width: f64) -> Vec<B
     let ground = Strips::new(below);
     let mut bridges: Vec<Bridge> = Vec::new();
     for piece in over_air.islands() {
-        let Some(direction) = bridging_direction(&piece, &ground, bead_width) else { continue };
+        let Some((direction, span)) = bridging_direction(&piece, &ground, bead_width) else { continue };
         let reach = piece.into_set().offset(ANCHOR * bead_width, Join::WALL).intersection(inner);
         let taken = PolygonSet::union_all(bridges.iter().map(|b| &b.area));
-        bridges.push(Bridge { area: reach.difference(&taken), direction });
+        bridges.push(Bridge { area: reach.difference(&taken), direction, span });
     }
     bridges
 }
 
-/// The direction in which lines over `piece` are held best, if they are held.
-fn bridging_direction(piece: &Polygon, ground: &Strips, bead_width: f64) -> Option<DVec2> {
+/// The direction in which lines over `piece` are held best, if they are held, and the longest of those
+/// that are held at both ends, mm.
+fn bridging_direction(piece: &Polygon, ground: &Strips, bead_width: f64) -> Option<(DVec2, f64)> {
     let spans: Vec<(DVec2, Spans)> =
         directions(piece).into_iter().map(|d| (d, Spans::of(piece, d, ground, bead_width))).collect();
     let best = spans.iter().map(|(_, s)| s.held_share()).fold(0.0, f64::max);
     let good = spans.iter().filter(|(_, s)| s.held_share() >= HELD_SHARE.max(best - SAME_SHARE));
-    good.min_by(|a, b| a.1.longest.total_cmp(&b.1.longest)).map(|(d, _)| *d)
+    good.min_by(|a, b| a.1.longest.total_cmp(&b.1.longest)).map(|(d, spans)| (*d, spans.longest))
 }
 
 /// Directions worth trying: along and across the longest edges, then evenly spread ones.
@@ -143,6 +146,7 @@ mod tests {
         let [bridge] = &bridges(&rectangle(1.0, 1.0, 29.0, 7.0), &pillars, 0.45)[..] else { panic!() };
         assert!(bridge.direction.perp_dot(DVec2::X).abs() < 1e-9);
         assert!((bridge.area.area() - (20.0 + 6.0 * 0.45) * 6.0).abs() < 0.01);
+        assert!((bridge.span - 20.0).abs() < 1e-9);
     }
 
     #[test]

@@ -53,7 +53,7 @@ impl Scene {
         let sliced = job.slice(index, index + 1, clock);
         let layer = read_alone(sliced.texts.first()?, sliced.meta.summaries.first()?, job);
         let section = slice_mesh(print.mesh(), Axis::Z, &[print.specs()[place].slice_z], 0.0).pop()?;
-        let mut scene = Scene::of_layer(&layer, job.bed(), Some(&section.area));
+        let mut scene = Scene::of_layer(&layer, &job.settings().printer, Some(&section.area));
         if let Some(teeth) = print.teeth_drawing().filter(|_| place == 0) {
             scene.items.extend(teeth_items(teeth));
             scene = scene.with_key(&teeth_key(teeth), Paper::FILE);

@@ -5,7 +5,6 @@ pub mod base_layer;
 pub mod job;
 pub mod legend;
 pub mod lesson;
-pub mod model;
 pub mod moves;
 pub mod plane;
 pub mod scene;
@@ -13,7 +12,6 @@ pub mod svg;
 
 pub use legend::{LegendEntry, legend};
 pub use lesson::Step;
-pub use model::{ModelPicture, Viewpoint};
 pub use moves::Moves;
 pub use plane::PlaneDetail;
 pub use scene::{Anchor, Ink, Item, LineWidth, Scene};

@@ -1,6 +1,6 @@
 //! The moves of some layers as flat arrays, for a picture in space.
 
-use crate::gcode::read::{ReadMove, Reader};
+use crate::gcode::read::{ReadMove, Reader, width_of};
 use crate::region::Role;
 
 /// Moves in the order of the text. Each array has an entry, or a few, for each move.
@@ -53,8 +53,7 @@ impl Moves {
         let width = match step.width {
             _ if !is_bead => 0.0,
             Some(width) => width,
-            None if height > 0.0 => volume / length / height,
-            None => 0.4,
+            None => width_of(volume, length, height),
         };
         let role = step.role.filter(|_| is_bead).and_then(|role| Role::ALL.iter().position(|r| *r == role));
         self.ends.extend(step.from.iter().chain(&step.to).map(|x| *x as f32));

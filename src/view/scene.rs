@@ -1,8 +1,9 @@
 //! What a layer or a plane looks like: strokes, areas and labels in mm.
 
 use crate::gcode::read::{ReadLayer, Strand};
+use crate::gcode::{BedShape, PrinterOptions};
 use crate::polygon::measure::Bounds;
-use crate::polygon::{DVec2, PolygonSet, dvec2};
+use crate::polygon::{DVec2, PolygonSet, dvec2, trig};
 use crate::region::Role;
 
 /// Colour by meaning; the painter knows what it looks like in light and dark.
@@ -275,11 +276,21 @@ const MARGIN: f64 = 3.0;
 /// Distance of the lines on the bed, mm.
 const BED_LINES: f64 = 10.0;
 
+/// Corners of a round bed's border.
+const BED_CORNERS: u32 = 96;
+
+/// A corner of a polygon of [`BED_CORNERS`] corners in the unit circle.
+fn on_circle(corner: u32) -> DVec2 {
+    let (sin, cos) = trig::sin_cos(f64::from(corner) * std::f64::consts::TAU / f64::from(BED_CORNERS));
+    dvec2(cos, sin)
+}
+
 impl Scene {
-    /// A layer as its G-code says, on the bed. `outline` is the section it was made from, where it
+    /// A layer as its G-code says, on the printer's bed. `outline` is the section it was made from, where it
     /// is known.
-    pub fn of_layer(layer: &ReadLayer, bed: Bounds, outline: Option<&PolygonSet>) -> Scene {
-        let mut items = bed_items(bed);
+    pub fn of_layer(layer: &ReadLayer, printer: &PrinterOptions, outline: Option<&PolygonSet>) -> Scene {
+        let bed = printer.bed();
+        let mut items = bed_items(bed, printer.bed_shape);
         let mut shown: Option<Bounds> = None;
         for strand in &layer.strands {
             let extent = Bounds::of_points(&strand.points);
@@ -315,7 +326,7 @@ fn outline_items(area: &PolygonSet) -> Vec<Item> {
 }
 
 /// The bed's border and a line every centimetre.
-fn bed_items(bed: Bounds) -> Vec<Item> {
+fn bed_items(bed: Bounds, shape: BedShape) -> Vec<Item> {
     let line = |a: DVec2, b: DVec2| Item::Stroke {
         points: vec![a, b],
         closed: false,
@@ -326,9 +337,26 @@ fn bed_items(bed: Bounds) -> Vec<Item> {
         let count = ((high - low) / BED_LINES).ceil() as usize;
         (1..count).map(move |i| low + i as f64 * BED_LINES)
     };
-    let upright = steps(bed.min.x, bed.max.x).map(|x| line(dvec2(x, bed.min.y), dvec2(x, bed.max.y)));
-    let level = steps(bed.min.y, bed.max.y).map(|y| line(dvec2(bed.min.x, y), dvec2(bed.max.x, y)));
-    let corners = vec![bed.min, dvec2(bed.max.x, bed.min.y), bed.max, dvec2(bed.min.x, bed.max.y)];
+    let (centre, half) = (bed.centre(), bed.size() / 2.0);
+    // How far a line reaches that is this share of the bed's half away from the middle.
+    let reach = |share: f64| match shape {
+        BedShape::Rectangle => 1.0,
+        BedShape::Round => (1.0 - share * share).max(0.0).sqrt(),
+    };
+    let upright = steps(bed.min.x, bed.max.x).map(|x| {
+        let y = half.y * reach((x - centre.x) / half.x);
+        line(dvec2(x, centre.y - y), dvec2(x, centre.y + y))
+    });
+    let level = steps(bed.min.y, bed.max.y).map(|y| {
+        let x = half.x * reach((y - centre.y) / half.y);
+        line(dvec2(centre.x - x, y), dvec2(centre.x + x, y))
+    });
+    let corners = match shape {
+        BedShape::Rectangle => {
+            vec![bed.min, dvec2(bed.max.x, bed.min.y), bed.max, dvec2(bed.min.x, bed.max.y)]
+        }
+        BedShape::Round => (0..BED_CORNERS).map(|k| centre + half * on_circle(k)).collect(),
+    };
     let border = Item::Stroke { points: corners, closed: true, width: LineWidth::Px(1.5), ink: Ink::Bed };
     upright.chain(level).chain([border]).collect()
 }

@@ -4,10 +4,10 @@ use js_sys::Array;
 use wasm_bindgen::{Clamped, JsValue};
 use web_sys::{CanvasRenderingContext2d, ImageData};
 
+use crate::picture::{Camera, ModelPicture};
 use crate::polygon::{DVec2, dvec2};
-use crate::view::model::Camera;
 use crate::view::svg::{BESIDE_PX, DASH_PX, TEXT_PX};
-use crate::view::{Anchor, Ink, Item, LineWidth, ModelPicture, Scene};
+use crate::view::{Anchor, Ink, Item, LineWidth, Scene};
 
 /// What part of the plane is shown on how many pixels.
 pub(super) struct View {

@@ -4,6 +4,7 @@ use glam::DMat4;
 use wasm_bindgen::prelude::*;
 
 use super::error::{Thrown, thrown, usage_error};
+use crate::gcode::inspect::GcodeFileError;
 use crate::mesh::StlError;
 use crate::orientation::OrientationError;
 use crate::pipeline::{FitError, JobError};
@@ -11,6 +12,11 @@ use crate::settings::{OwnSettings, Settings, SettingsError};
 
 /// A file that cannot be read or used.
 pub(super) fn model_error(cause: StlError) -> Thrown {
+    thrown("ModelError", cause)
+}
+
+/// A G-code file that cannot be read.
+pub(super) fn gcode_file_error(cause: GcodeFileError) -> Thrown {
     thrown("ModelError", cause)
 }
 
@@ -28,7 +34,8 @@ pub(super) fn orientation_error(cause: OrientationError) -> Thrown {
 /// A job that cannot be done.
 pub(super) fn job_error(cause: JobError) -> Thrown {
     let name = match cause {
-        JobError::Fit(_) | JobError::Sequence(_) => "FitError",
+        JobError::Fit(cause) => return fit_error(cause),
+        JobError::Sequence(_) => "FitError",
         JobError::Empty | JobError::Orientation(_) => "ModelError",
         JobError::Gcode(_)
         | JobError::Adhesion(_)
@@ -40,9 +47,17 @@ pub(super) fn job_error(cause: JobError) -> Thrown {
     thrown(name, cause)
 }
 
-/// Parts that do not fit the printer.
+/// Parts that do not fit the printer; its `fix` is the change to every part, JSON, that would make them fit.
 pub(super) fn fit_error(cause: FitError) -> Thrown {
-    thrown("FitError", cause)
+    let fix = match &cause {
+        FitError::TooLarge { hint, .. } => serde_json::to_string(&hint.edit()).ok(),
+        FitError::Outside { .. } | FitError::Placement { .. } => None,
+    };
+    let thrown = thrown("FitError", cause);
+    match fix {
+        Some(fix) => thrown.with("fix", &fix),
+        None => thrown,
+    }
 }
 
 /// Matrices from 16 numbers each, column by column.

@@ -15,6 +15,16 @@ impl From<Thrown> for JsValue {
     }
 }
 
+impl Thrown {
+    /// The error with one more property.
+    #[cfg(feature = "slicer")]
+    pub(super) fn with(self, name: &str, value: &str) -> Thrown {
+        // Fails on objects that are frozen; this one is new.
+        let _ = js_sys::Reflect::set(&self.0, &name.into(), &value.into());
+        self
+    }
+}
+
 pub(super) fn thrown(name: &str, cause: impl Display) -> Thrown {
     let error = Error::new(&cause.to_string());
     error.set_name(name);

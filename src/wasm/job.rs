@@ -7,6 +7,7 @@ use super::error::{Thrown, internal_error, usage_error};
 use super::model::Model;
 use super::study;
 use crate::gcode::Piece;
+use crate::mesh::stl::write_binary;
 use crate::pipeline::{self, Finished, NamedModel, RangeMeta, RangeResult, Share};
 use crate::view::{Paper, Scene};
 
@@ -59,6 +60,11 @@ impl Job {
     /// Number of layers; known after `prepare`.
     pub fn layer_count(&self) -> Result<usize, Thrown> {
         Ok(self.inner()?.layer_count())
+    }
+
+    /// All models as they stand on the bed, as one binary STL.
+    pub fn stl(&self) -> Result<Vec<u8>, Thrown> {
+        Ok(write_binary(&self.inner()?.plate()))
     }
 
     /// Works out what all layers share; once, before any range.

@@ -10,6 +10,8 @@ mod canvas;
 mod convert;
 mod error;
 #[cfg(feature = "slicer")]
+mod gcode;
+#[cfg(feature = "slicer")]
 mod job;
 #[cfg(feature = "slicer")]
 mod model;
@@ -25,6 +27,8 @@ mod settings;
 mod study;
 
 pub use error::Thrown;
+#[cfg(feature = "slicer")]
+pub use gcode::{GcodeFile, GcodeReader};
 #[cfg(feature = "slicer")]
 pub use job::{Chunk, Job, JobResult, slice_share};
 #[cfg(feature = "slicer")]

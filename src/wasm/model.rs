@@ -15,9 +15,9 @@ use crate::mesh::{Box3, Edit, LoadedModel, Mesh, StlReader, bounds_under, edited
 use crate::orientation::{
     Direction, DirectionFigures, OrientationOptions, OrientationReport, candidates, choose, evaluate,
 };
+use crate::picture::{ModelPicture, Viewpoint};
 use crate::pipeline::{self, NamedModel};
 use crate::settings::Settings;
-use crate::view::{ModelPicture, Viewpoint};
 
 /// Reads an STL file from chunks of any size.
 #[wasm_bindgen]

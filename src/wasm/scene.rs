@@ -8,8 +8,9 @@ use super::convert::settings_from;
 use super::error::{Thrown, internal_error};
 use crate::adhesion::TeethDrawing;
 use crate::gcode::read;
+use crate::picture::ModelPicture;
+use crate::view;
 use crate::view::base_layer::teeth_items;
-use crate::view::{self, ModelPicture};
 
 /// A picture of a layer or a model.
 #[wasm_bindgen]
@@ -36,7 +37,7 @@ impl Scene {
         let settings = settings_from(settings)?;
         let mut file = read::read(gcode, settings.filament.diameter);
         let layer = file.layers.pop().unwrap_or(file.prelude);
-        let mut scene = view::Scene::of_layer(&layer, settings.printer.bed(), None);
+        let mut scene = view::Scene::of_layer(&layer, &settings.printer, None);
         if !marks.is_empty() {
             let teeth: TeethDrawing = postcard::from_bytes(marks).map_err(internal_error)?;
             scene.items.extend(teeth_items(&teeth));

@@ -23,7 +23,7 @@ import { ownGroups } from '../../www/src/settings/own.ts';
 import { allFields, roomOf } from '../../www/src/settings/room.ts';
 import { Store } from '../../www/src/state.ts';
 
-const room: Room = [200, 100, 150];
+const room: Room = [200, 100, 150, 0, 0, false];
 const part = (id: number, box: readonly number[]): Part => ({ id, model: 0, matrix: UNMOVED, box });
 const cube = part(1, [0, 0, 0, 20, 20, 20]);
 
@@ -154,6 +154,6 @@ test('a settings file becomes changes; what is default is none', () => {
   const file = { walls: { count: 5, width: 0.45 }, printer: { bed_size: [300, 300] }, unknown: 1 };
   const changes = asChanges(file, allFields);
   expect(changes).toEqual({ 'walls.count': 5, 'printer.bed_size': [300, 300] });
-  expect(roomOf(changes)).toEqual([300, 300, 250]);
+  expect(roomOf(changes)).toEqual([300, 300, 250, 0, 0, false]);
   expect(asChanges(null, allFields)).toEqual({});
 });

@@ -93,8 +93,8 @@ export class FootholdSlicer extends HTMLElement implements FootholdSlicerElement
     await session.slice();
     const { job, result } = app.store.state;
     if (job.kind === 'failed' && this.#app === app) throw named(job.problem);
-    if (job.kind !== 'done' || result === undefined) throw new DOMException('cancelled', 'AbortError');
-    return result.report;
+    if (job.kind !== 'done' || result?.sliced === undefined) throw new DOMException('cancelled', 'AbortError');
+    return result.sliced;
   }
 
   gcode(): File | undefined {
@@ -191,7 +191,7 @@ export class FootholdSlicer extends HTMLElement implements FootholdSlicerElement
   /** Sends what has changed between two states as events. */
   #tell(before: State, now: State): void {
     const { result } = now;
-    if (result !== undefined && result !== before.result) this.#send<Report>('foothold-sliced', result.report);
+    if (result?.sliced !== undefined && result !== before.result) this.#send<Report>('foothold-sliced', result.sliced);
     const known = problemsOf(before);
     for (const problem of problemsOf(now)) {
       if (!known.includes(problem)) this.#send<SlicerProblem>('foothold-error', problem);

@@ -70,6 +70,10 @@ export type LeadRequest =
   | { readonly kind: 'open'; readonly sources: readonly ModelSource[]; readonly keep: number }
   /** Takes a file of another format apart into one STL for each part. */
   | { readonly kind: 'unpack'; readonly source: ModelSource }
+  /** All models as they stand, in one STL. */
+  | { readonly kind: 'stl'; readonly settings: string; readonly standing?: Standing | undefined }
+  /** Reads a G-code file; `settings` tell its filament where it does not itself. */
+  | { readonly kind: 'gcode'; readonly source: ModelSource; readonly settings: string }
   | { readonly kind: 'shape'; readonly model: number }
   /** Without `edit` the placement stays as it is. */
   | { readonly kind: 'edit'; readonly model: number; readonly matrix: readonly number[]; readonly edit?: Edit }
@@ -123,6 +127,8 @@ export type LeadRequest =
 export type LeadReply =
   | { readonly kind: 'open'; readonly inspections: readonly string[]; readonly parse_ms: number }
   | { readonly kind: 'unpack'; readonly sources: readonly ModelSource[] }
+  | { readonly kind: 'stl'; readonly stl: Uint8Array<ArrayBuffer> }
+  | ({ readonly kind: 'gcode' } & GcodeIndex)
   | ({ readonly kind: 'shape' } & Shape)
   /** The matrix, 16 numbers, and the box around the part: lowest x y z, highest x y z, mm. */
   | { readonly kind: 'edit'; readonly stand: Float64Array }
@@ -149,6 +155,18 @@ export type LeadReply =
   | { readonly kind: 'thumbnail'; readonly pixels: Uint8Array }
   | { readonly kind: 'picture'; readonly bounds: Bounds }
   | { readonly kind: 'paint'; readonly bitmap: ImageBitmap };
+
+/** A G-code file of any slicer. */
+export interface GcodeIndex {
+  /** The engine's `GcodeFigures`, JSON. */
+  readonly figures: string;
+  /** The byte at which each layer begins. */
+  readonly offsets: Float64Array;
+  /** What is to be read before each layer when it is read alone. */
+  readonly heads: readonly string[];
+  /** Seconds that each layer takes. */
+  readonly times: Float64Array;
+}
 
 /** A model's triangles in its file's coordinates. */
 export interface Shape {
@@ -229,6 +247,8 @@ export interface Failure {
   readonly name: string;
   readonly message: string;
   readonly source?: string;
+  /** A change to every part, the engine's `Edit` as JSON, that would mend it. */
+  readonly fix?: string;
   readonly fatal: boolean;
 }
 

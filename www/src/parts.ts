@@ -17,8 +17,8 @@ export interface Part {
   readonly own?: Changes;
 }
 
-/** Bed width and depth and the printer's height, mm. */
-export type Room = readonly [number, number, number];
+/** Bed width and depth and the printer's height, mm; x and y of the bed's front left corner; whether it is round. */
+export type Room = readonly [width: number, depth: number, height: number, x: number, y: number, round: boolean];
 
 /** A matrix that leaves everything where it is. */
 export const UNMOVED: readonly number[] = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
@@ -73,17 +73,22 @@ export function scaleOf({ matrix: m }: Part): number {
 }
 
 /** Whether the part reaches out of the printer. */
-export function isOutside({ box }: Part, room: Room): boolean {
-  return [0, 1, 2].some((k) => at(box, k) < -EDGE || at(box, k + 3) > at(room, k) + EDGE);
+export function isOutside({ box }: Part, [width, depth, height, x, y]: Room): boolean {
+  const [low, high] = [
+    [x, y, 0],
+    [x + width, y + depth, height],
+  ] as const;
+  return [0, 1, 2].some((k) => at(box, k) < at(low, k) - EDGE || at(box, k + 3) > at(high, k) + EDGE);
 }
 
 /** The part at the free spot nearest to the middle of the bed; in the middle when there is none. */
 export function atFreeSpot(part: Part, others: readonly Part[], room: Room): Part {
   const [width, depth] = sizeOf(part);
-  const centre = [room[0] / 2, room[1] / 2] as const;
+  const [roomWidth, roomDepth, , left, front] = room;
+  const centre = [left + roomWidth / 2, front + roomDepth / 2] as const;
   const spots: (readonly [number, number])[] = [centre];
-  for (let x = width / 2; x <= room[0] - width / 2; x += STEP) {
-    for (let y = depth / 2; y <= room[1] - depth / 2; y += STEP) spots.push([x, y]);
+  for (let x = left + width / 2; x <= left + roomWidth - width / 2; x += STEP) {
+    for (let y = front + depth / 2; y <= front + roomDepth - depth / 2; y += STEP) spots.push([x, y]);
   }
   const far = ([x, y]: readonly [number, number]): number => Math.hypot(x - centre[0], y - centre[1]);
   const isFree = ([x, y]: readonly [number, number]): boolean =>

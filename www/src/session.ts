@@ -1,6 +1,7 @@
 // The flow of work, as plain functions over the state: open, place, slice, cancel, show, download.
-import { type Imported, importProfile } from './files/files.ts';
+import { type Imported, importProfile, isGcode, readGcode, stem } from './files/files.ts';
 import { loadFiles } from './files/load.ts';
+import type { GcodeFigures } from './generated/gcode-figures.ts';
 import type { OrientationReport, Report } from './generated/report.ts';
 import { planOf, redone, undone } from './history.ts';
 import { t } from './i18n/text.ts';
@@ -83,6 +84,7 @@ export class Session {
   async #open(sources: readonly ModelSource[], step: Step, kept?: Kept): Promise<void> {
     const [source] = sources;
     if (source === undefined) return;
+    if (isGcode(source)) return this.#showGcode(source);
     this.#job?.abort();
     this.#job = undefined;
     this.#store.update({
@@ -114,8 +116,41 @@ export class Session {
     }
   }
 
+  /** Shows a G-code file of any slicer in Preview; models that are open stay so. */
+  async #showGcode(source: ModelSource): Promise<void> {
+    this.#job?.abort();
+    const job = new AbortController();
+    this.#job = job;
+    const update = (change: Partial<State>): void => {
+      if (this.#job === job) this.#store.update(change);
+    };
+    update({ job: { kind: 'running', progress: { stage: 'read', done: 0, total: 0 } } });
+    try {
+      const settings = await this.#settings();
+      const gcode = await readGcode(source, (it) => this.#pool.gcode(it, settings));
+      const found = JSON.parse(gcode.joined.report) as GcodeFigures;
+      const { changes, parts } = this.#store.state;
+      update({
+        job: { kind: 'done' },
+        result: {
+          gcode,
+          report: { ...found, by_role: { ...found.by_role }, model: { bounds: found.bounds } },
+          settings: await this.#pool.settings([settings], [`filament.diameter=${found.filament.diameter_mm}`]),
+          changes,
+          parts,
+        },
+        layer: canDrawSpace() && !this.#store.state.flat ? gcode.layers.length - 1 : 0,
+        step: 'preview',
+      });
+    } catch (error) {
+      update({ job: { kind: 'failed', problem: problemOf(error) } });
+    }
+  }
+
   /** Opens models beside those that are open. */
   async add(sources: readonly ModelSource[]): Promise<void> {
+    const [gcode] = sources.filter(isGcode);
+    if (gcode !== undefined) return this.#showGcode(gcode);
     if (this.#store.state.model.kind !== 'open') return this.open(sources);
     await this.#edit(async ({ model, parts, arranged, changes }) => {
       if (model.kind !== 'open') return {};
@@ -144,6 +179,46 @@ export class Session {
       if (part === undefined) return {};
       const stand = await this.#pool.edit(part.model, part.matrix, edit);
       return { parts: replaced(parts, { ...part, ...standing(id, part.model, stand) }), arranged: false };
+    });
+  }
+
+  /** Changes every part in the same way, or those of one model, and arranges them. */
+  async changeAll(edit: Edit, model?: number): Promise<void> {
+    await this.#edit(async ({ parts }) => {
+      const changed = parts.map(async (part) => {
+        if (model !== undefined && part.model !== model) return part;
+        return standing(part.id, part.model, await this.#pool.edit(part.model, part.matrix, edit));
+      });
+      return { parts: await this.#arranged(await Promise.all(changed)), arranged: edit.kind === 'drop' };
+    });
+  }
+
+  /** Changes every part so that the job can be done, and slices. */
+  async mend(edit: Edit): Promise<void> {
+    await this.changeAll(edit);
+    await this.slice();
+  }
+
+  /** Moves all parts out of the bed's forbidden zones, and slices. */
+  async moveAside(): Promise<void> {
+    await this.#edit(async ({ parts, changes }) => {
+      const zones = changes['printer.forbidden'] ?? [];
+      const blocks = (Array.isArray(zones) ? (zones as unknown as number[][]) : []).map(
+        ([x0 = 0, y0 = 0, x1 = 0, y1 = 0]): Part => ({ id: 0, model: 0, matrix: UNMOVED, box: [x0, y0, 0, x1, y1, 0] }),
+      );
+      const clear = withAdded(blocks, parts, roomOf(changes));
+      return { parts: clear.slice(blocks.length), arranged: false };
+    });
+    await this.slice();
+  }
+
+  /** Hands the parts as they stand to the browser as one STL. */
+  async exportStl(): Promise<void> {
+    await this.#edit(async ({ model, parts, arranged }) => {
+      if (model.kind !== 'open') return {};
+      const stl = await this.#pool.stl(await this.#settings(), asStanding(parts, arranged));
+      saveFile(new Blob([stl], { type: 'model/stl' }), `${stem(model.source.name)}_placed.stl`);
+      return {};
     });
   }
 
@@ -339,7 +414,7 @@ export class Session {
     const report = JSON.parse(gcode.joined.report) as Report;
     // In space all layers are seen at once; flat the first is the one to look at.
     const layer = canDrawSpace() && !this.#store.state.flat ? gcode.layers.length - 1 : 0;
-    return { job: { kind: 'done' }, result: { gcode, report, settings, changes, parts }, layer };
+    return { job: { kind: 'done' }, result: { gcode, report, sliced: report, settings, changes, parts }, layer };
   }
 
   /** Runs a change of the parts after those before it; what it cannot do is said beside the parts. */
@@ -428,9 +503,11 @@ function notesOf({ mapped, changed, unknown }: Imported, name: string): readonly
 
 export function problemOf(error: unknown): Problem {
   const known = error instanceof EngineError || (error instanceof Error && error.name in t.problem);
+  const fix = error instanceof EngineError && error.fix !== undefined ? { fix: JSON.parse(error.fix) as Edit } : {};
   return {
     name: known ? (error as Error).name : 'InternalError',
     message: error instanceof Error ? error.message : String(error),
+    ...fix,
   };
 }
 

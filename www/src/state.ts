@@ -3,7 +3,7 @@ import type { Report } from './generated/report.ts';
 import { type History, noHistory, planOf, recorded, samePlan } from './history.ts';
 import type { Language } from './i18n/text.ts';
 import { firstPlace, type Place } from './lesson/steps.ts';
-import type { LegendEntry, ModelSource, PictureView } from './messages.ts';
+import type { Edit, LegendEntry, ModelSource, PictureView } from './messages.ts';
 import type { Part } from './parts.ts';
 import type { ThemeChoice } from './preferences.ts';
 import { hasJob } from './printer/link.ts';
@@ -17,6 +17,8 @@ import type { ColourBy, RoleColour } from './view/colours.ts';
 export interface Problem {
   readonly name: string;
   readonly message: string;
+  /** A change to every part that would mend it. */
+  readonly fix?: Edit;
 }
 
 /** The facts about a model that the page shows. */
@@ -50,9 +52,17 @@ export type ModelState =
   | ({ readonly kind: 'open'; readonly models: readonly OpenModel[] } & OpenModel)
   | { readonly kind: 'failed'; readonly problem: Problem };
 
+/** What the page shows of a job, or of a G-code file that was opened. */
+export interface Figures extends Pick<Report, 'layers' | 'time_s' | 'by_role' | 'filament'> {
+  readonly model: Pick<Report['model'], 'bounds'>;
+  readonly warnings: readonly Remark[];
+}
+
 export interface Result {
   readonly gcode: Gcode;
-  readonly report: Report;
+  readonly report: Figures;
+  /** The whole report of what was sliced here; an opened file has none. */
+  readonly sliced?: Report;
   /** All settings it was made with, JSON. */
   readonly settings: string;
   /** The changes it was made with; when they differ from the form's, the result is stale. */
@@ -195,7 +205,7 @@ export function isBusy({ job, print }: State): boolean {
 
 /** Whether the form says something else than the result was made with. */
 export function isStale({ result, changes, parts }: State): boolean {
-  if (result === undefined) return false;
+  if (result?.sliced === undefined) return false;
   return !same(result.changes, changes) || !same(result.parts, parts);
 }
 

@@ -2,11 +2,11 @@
 
 use glam::{DVec3, dvec3};
 
+use crate::picture::Viewpoint;
 use crate::polygon::measure::Bounds;
 use crate::polygon::{Contour, DVec2, PolygonSet, dvec2};
 use crate::slice::Axis;
 use crate::view::base_layer::outline_strokes;
-use crate::view::model::Viewpoint;
 use crate::view::scene::{Ink, Item, Scene};
 
 /// At most so many layers of a part are drawn.

@@ -1,7 +1,8 @@
 // Files of other programs, read by a second wasm module that is loaded when such a file is opened: models in 3MF and
 // OBJ, profiles of other slicers.
-import type { Bytes, ModelSource } from '../messages.ts';
+import type { Bytes, GcodeIndex, ModelSource } from '../messages.ts';
 import { EngineError, toFailure } from '../slicer/errors.ts';
+import { type Gcode, openedGcode } from '../slicer/gcode.ts';
 
 export type Files = typeof import('../generated/files/foothold_files.js');
 export type LoadFiles = () => Promise<Files>;
@@ -25,6 +26,21 @@ export async function modelsIn({ name, file }: ModelSource, load: LoadFiles): Pr
   } catch (error) {
     throw new EngineError(toFailure(error, name));
   }
+}
+
+/** Whether a file is G-code, by its name. */
+export function isGcode({ name }: ModelSource): boolean {
+  return /\.(gcode|gco|g|nc|bgcode)$/i.test(name);
+}
+
+/** A G-code file with what the engine finds in it. Throws a ModelError. */
+export async function readGcode(
+  { name, file }: ModelSource,
+  index: (source: ModelSource) => Promise<GcodeIndex>,
+): Promise<Gcode> {
+  if (file.size > LARGEST) throw new EngineError({ ...tooLarge(file.size), source: name });
+  const found = await index({ name, file });
+  return openedGcode(new Uint8Array(await file.slice(0, file.size).arrayBuffer()), name, found);
 }
 
 /** What became of a profile of another slicer; the engine's `Imported`. */

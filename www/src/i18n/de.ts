@@ -30,7 +30,7 @@ export const de: Words = {
     heading: 'Modell',
     open: 'Modell öffnen',
     add: 'Modell dazu',
-    hint: 'oder STL-, 3MF- oder OBJ-Dateien irgendwo ablegen',
+    hint: 'oder STL-, 3MF-, OBJ- oder G-Code-Dateien irgendwo ablegen',
     drop: 'Loslassen, um die Dateien zu öffnen',
     reading: (name) => `${name} wird gelesen …`,
     triangles: (count) => `${format.number(count, 0)} ${count === 1 ? 'Dreieck' : 'Dreiecke'}`,
@@ -67,6 +67,15 @@ export const de: Words = {
     mirroring: 'Spiegeln',
     mirror: (axis) => `${axis} spiegeln`,
     duplicate: 'Verdoppeln',
+    exportStl: 'Als STL speichern',
+  },
+  mend: {
+    turn: (degrees: number) => `Um ${degrees}° drehen und slicen`,
+    lay: 'Hinlegen und slicen',
+    scale: (percent: number) => `Auf ${Math.round(percent)} % verkleinern und slicen`,
+    drop: 'Aufs Bett setzen und neu slicen',
+    aside: 'Zur Seite rücken und neu slicen',
+    times: (factor: number) => `${String(factor).replace('.', ',')}-mal so groß machen`,
   },
   job: {
     heading: 'Auftrag',
@@ -138,6 +147,7 @@ export const de: Words = {
     support_interface: 'Stützschicht',
     prime: 'Anspülen',
     wipe_tower: 'Reinigungsturm',
+    unnamed: 'Ohne Namen',
   },
   figures: {
     heading: 'Ergebnis',

@@ -31,7 +31,7 @@ export const en = {
     heading: 'Model',
     open: 'Open model',
     add: 'Add model',
-    hint: 'or drop STL, 3MF or OBJ files anywhere',
+    hint: 'or drop STL, 3MF, OBJ or G-code files anywhere',
     drop: 'Drop the files to open them',
     reading: (name: string) => `Reading ${name}…`,
     triangles: (count: number) => `${format.number(count, 0)} ${count === 1 ? 'triangle' : 'triangles'}`,
@@ -68,6 +68,15 @@ export const en = {
     mirroring: 'Mirror',
     mirror: (axis: string) => `Mirror ${axis}`,
     duplicate: 'Duplicate',
+    exportStl: 'Save as STL',
+  },
+  mend: {
+    turn: (degrees: number) => `Turn it by ${degrees}° and slice`,
+    lay: 'Lay it down and slice',
+    scale: (percent: number) => `Make it ${Math.round(percent)} % of its size and slice`,
+    drop: 'Drop to the bed and slice again',
+    aside: 'Move aside and slice again',
+    times: (factor: number) => `Make it ${factor} times as large`,
   },
   job: {
     heading: 'Job',
@@ -141,6 +150,7 @@ export const en = {
     support_interface: 'Support interface',
     prime: 'Prime',
     wipe_tower: 'Wipe tower',
+    unnamed: 'Without a name',
   },
   figures: {
     heading: 'Result',

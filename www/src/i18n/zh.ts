@@ -30,7 +30,7 @@ export const zh: Words = {
     heading: '模型',
     open: '打开模型',
     add: '添加模型',
-    hint: '或将 STL、3MF 或 OBJ 文件拖到页面任意位置',
+    hint: '或将 STL、3MF、OBJ 或 G-code 文件拖到页面任意位置',
     drop: '松开即可打开 STL、3MF 或 OBJ 文件',
     reading: (name) => `正在读取 ${name}…`,
     triangles: (count) => `${format.number(count, 0)} 个三角形`,
@@ -66,6 +66,15 @@ export const zh: Words = {
     mirroring: '镜像',
     mirror: (axis) => `镜像 ${axis}`,
     duplicate: '复制',
+    exportStl: '另存为 STL',
+  },
+  mend: {
+    turn: (degrees: number) => `旋转 ${degrees}° 并切片`,
+    lay: '放平并切片',
+    scale: (percent: number) => `缩小到 ${Math.round(percent)} % 并切片`,
+    drop: '放到热床上并重新切片',
+    aside: '移到旁边并重新切片',
+    times: (factor: number) => `放大到 ${factor} 倍`,
   },
   job: {
     heading: '任务',
@@ -136,6 +145,7 @@ export const zh: Words = {
     support_interface: '支撑接触层',
     prime: '预挤出',
     wipe_tower: '擦料塔',
+    unnamed: '未命名',
   },
   figures: {
     heading: '结果',

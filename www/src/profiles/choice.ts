@@ -5,11 +5,9 @@ import { allFields } from '../settings/room.ts';
 import { type Kind, materials, type Profile, printers, qualities } from './catalog.ts';
 import type { Layers } from './layers.ts';
 
-/** What the page offers. Its bed begins at X0 Y0, so printers with their origin in the middle are left out. */
+/** What the page offers. */
 export const offered: Readonly<Record<Kind, readonly Profile[]>> = {
-  printer: printers.filter(
-    (it) => !valuesOf(it).some(([path, value]) => path === 'printer.origin' && value === 'center'),
-  ),
+  printer: printers,
   material: materials,
   quality: qualities,
 };

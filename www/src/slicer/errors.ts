@@ -8,19 +8,28 @@ const expected = ['ModelError', 'SettingsError', 'FitError', 'UsageError'];
 export class EngineError extends Error {
   readonly fatal: boolean;
   readonly source: string | undefined;
+  /** A change to every part, the engine's `Edit` as JSON, that would mend it. */
+  readonly fix: string | undefined;
 
   constructor(failure: Failure) {
     super(failure.message);
     this.name = failure.name;
     this.fatal = failure.fatal;
     this.source = failure.source;
+    this.fix = failure.fix;
   }
 
   /** As it crosses threads; `source` is the file that it is about, unless it names one itself. */
   failure(source?: string): Failure {
     const about = this.source ?? source;
-    const { name, message, fatal } = this;
-    return about === undefined ? { name, message, fatal } : { name, message, fatal, source: about };
+    const { name, message, fatal, fix } = this;
+    return {
+      name,
+      message,
+      fatal,
+      ...(about === undefined ? {} : { source: about }),
+      ...(fix === undefined ? {} : { fix }),
+    };
   }
 }
 
@@ -46,7 +55,8 @@ export function toFailure(error: unknown, source?: string): Failure {
   const about = source === undefined ? {} : { source };
   if (error instanceof EngineError) return error.failure(source);
   if (error instanceof Error && expected.includes(error.name)) {
-    return { name: error.name, message: error.message, fatal: false, ...about };
+    const fix = 'fix' in error && typeof error.fix === 'string' ? { fix: error.fix } : {};
+    return { name: error.name, message: error.message, fatal: false, ...about, ...fix };
   }
   const message = panic ?? (error instanceof Error ? error.message : String(error));
   return { name: 'InternalError', message, fatal: true, ...about };

@@ -1,10 +1,22 @@
 // The G-code of a finished job: the layers' texts as the lanes made them, and what joins them.
-import type { Joined } from '../messages.ts';
+import type { GcodeIndex, Joined } from '../messages.ts';
 
 /** The texts of all layers, in order, and the glue between them. */
 export interface Gcode {
   readonly layers: readonly Uint8Array<ArrayBuffer>[];
   readonly joined: Joined;
+  /** In a file that was opened: what is to be read before each layer when it is read alone. */
+  readonly heads?: readonly string[];
+}
+
+/** An opened file, whose layers begin where `index` says. */
+export function openedGcode(file: Uint8Array<ArrayBuffer>, fileName: string, index: GcodeIndex): Gcode {
+  const { figures, offsets, heads, times } = index;
+  const starts = [...offsets, file.length];
+  const layers = heads.map((_, k) => file.subarray(starts[k], starts[k + 1]));
+  const glue = file.subarray(0, starts[0]);
+  const pieces = Uint32Array.from([0, 0, glue.length, ...layers.flatMap((text, k) => [k + 1, 0, text.length])]);
+  return { layers, heads, joined: { report: figures, fileName, glue, pieces, times, marks: new Uint8Array() } };
 }
 
 /** The file's parts in order, as views: no text is copied. */
@@ -18,8 +30,10 @@ export function partsOf({ layers, joined }: Gcode): Uint8Array<ArrayBuffer>[] {
   });
 }
 
+const encoder = new TextEncoder();
+
 /** Extrusion is relative: the file says so in its header, a layer read alone needs to hear it. */
-const RELATIVE = new TextEncoder().encode('M83\n');
+const RELATIVE = encoder.encode('M83\n');
 
 /** A layer to be read alone: from the joining text in front of it, which moves the head there, to its end. */
 export function layerOf(gcode: Gcode, layer: number): Uint8Array {
@@ -28,6 +42,11 @@ export function layerOf(gcode: Gcode, layer: number): Uint8Array {
 
 /** The layers from `first` to `last`, without `last`, to be read alone. */
 export function layersOf(gcode: Gcode, first: number, last: number): Uint8Array<ArrayBuffer> {
+  const { heads, layers } = gcode;
+  if (heads !== undefined) {
+    const alone = layers.slice(first, last).map((text, k) => [encoder.encode(heads[first + k]), text]);
+    return joined(alone.flat());
+  }
   const { pieces } = gcode.joined;
   const sources = pieces.filter((_, k) => k % 3 === 0);
   const start = sources.indexOf(first + 1);

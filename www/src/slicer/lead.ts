@@ -5,6 +5,7 @@ import type {
   Bounds,
   CameraNumbers,
   Edit,
+  GcodeIndex,
   Joined,
   LeadReply,
   LeadRequest,
@@ -43,6 +44,10 @@ export class Lead {
         return { kind: 'open', ...(await this.#open(request.sources, request.keep)) };
       case 'unpack':
         return { kind: 'unpack', sources: await modelsIn(request.source, this.#loadFiles) };
+      case 'stl':
+        return { kind: 'stl', stl: this.#stl(request.settings, request.standing) };
+      case 'gcode':
+        return { kind: 'gcode', ...(await this.#gcode(request.source, request.settings)) };
       case 'shape':
         return { kind: 'shape', ...shapeOf(this.#model(request.model)) };
       case 'edit':
@@ -120,13 +125,26 @@ export class Lead {
     try {
       refuseTooLarge(file.size);
       const reader = new this.#engine.ModelReader(file.size);
-      let next = read(file, 0);
-      for (let from = 0; from < file.size; from += READ_BYTES) {
-        const chunk = await next;
-        next = read(file, from + READ_BYTES);
-        reader.push(chunk);
-      }
+      for await (const chunk of chunksOf(file)) reader.push(chunk);
       return reader.finish();
+    } catch (error) {
+      throw new EngineError(toFailure(error, name));
+    }
+  }
+
+  async #gcode({ name, file }: ModelSource, settings: string): Promise<GcodeIndex> {
+    const reader = new this.#engine.GcodeReader(settings);
+    try {
+      for await (const chunk of chunksOf(file)) reader.push(chunk);
+      const found = reader.finish();
+      const index = {
+        figures: found.figures(),
+        offsets: found.offsets(),
+        heads: found.heads(),
+        times: found.times(),
+      };
+      found.free();
+      return index;
     } catch (error) {
       throw new EngineError(toFailure(error, name));
     }
@@ -146,6 +164,15 @@ export class Lead {
       Float64Array.from(standing.placements),
       [...(standing.own ?? [])],
     );
+  }
+
+  #stl(settings: string, standing: Standing = this.#all()): Uint8Array<ArrayBuffer> {
+    const job = this.#newJob(settings, standing);
+    try {
+      return job.stl() as Uint8Array<ArrayBuffer>;
+    } finally {
+      job.free();
+    }
   }
 
   /** Answers from a job of its own, about all models together: the one that is sliced goes on. */
@@ -266,6 +293,16 @@ function shapeOf(model: Model): Shape {
     positions: model.positions() as Float32Array<ArrayBuffer>,
     indices: model.indices() as Uint32Array<ArrayBuffer>,
   };
+}
+
+/** A file piece by piece; the next piece is read while one is worked on. */
+async function* chunksOf(file: ModelSource['file']): AsyncGenerator<Uint8Array> {
+  let next = read(file, 0);
+  for (let from = 0; from < file.size; from += READ_BYTES) {
+    const chunk = await next;
+    next = read(file, from + READ_BYTES);
+    yield chunk;
+  }
 }
 
 /** The next bytes of a file; one that can't be read any more (moved, changed) is the model's fault, not ours. */

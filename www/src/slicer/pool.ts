@@ -7,6 +7,7 @@ import type {
   CameraNumbers,
   Edit,
   Evaluation,
+  GcodeIndex,
   ModelSource,
   PictureView,
   Range,
@@ -107,6 +108,17 @@ export class Pool {
       return (await this.#guard(this.#someLead().call({ kind: 'unpack', source }))).sources;
     };
     return (await Promise.all(sources.map(models))).flat();
+  }
+
+  /** The open models as they stand on the bed, in one STL. */
+  async stl(settings: string, standing?: Standing): Promise<Uint8Array<ArrayBuffer>> {
+    await this.ready();
+    return (await this.#guard(this.#someLead().call({ kind: 'stl', settings, standing }))).stl;
+  }
+
+  /** Reads a G-code file of any slicer; open models stay. */
+  async gcode(source: ModelSource, settings: string): Promise<GcodeIndex> {
+    return await this.#guard(this.#someLead().call({ kind: 'gcode', source, settings }));
   }
 
   /** The triangles of an open model. */

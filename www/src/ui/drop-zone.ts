@@ -6,7 +6,16 @@ import { Part } from './part.ts';
 import { problemBox } from './problem-box.ts';
 import { surroundings } from './surroundings.ts';
 
-/** Sends `open-files` and `add-files` with a list of Files. */
+/** Remarks that guess another unit than mm, and how many mm it has. */
+const unitFactors: Readonly<Record<string, number>> = { unit_inch: 25.4, unit_metre: 1000 };
+
+/** A model that shall be so many times as large. */
+export interface ScaleModel {
+  readonly model: number;
+  readonly factor: number;
+}
+
+/** Sends `open-files` and `add-files` with a list of Files, `scale-model` with a ScaleModel. */
 export class DropZone extends Part {
   static override properties = {
     model: { attribute: false },
@@ -59,7 +68,7 @@ export class DropZone extends Part {
         }
         <span class="hint">${t.model.hint}</span>
       </div>
-      <input type="file" multiple accept=".stl,.3mf,.obj,model/stl,model/3mf,model/obj" hidden @change=${this.#chosen} />
+      <input type="file" multiple accept=".stl,.3mf,.obj,.gcode,.gco,.g,.bgcode,model/stl,model/3mf,model/obj" hidden @change=${this.#chosen} />
       ${this.over ? html`<div class="drop-cover" aria-hidden="true"><p>${t.model.drop}</p></div>` : nothing}
     `;
   }
@@ -73,19 +82,30 @@ export class DropZone extends Part {
       case 'failed':
         return problemBox(this.model.problem);
       case 'open': {
-        const remarks = this.model.models.flatMap((it) => it.facts.warnings.map(({ message }) => message));
+        const remarks = this.model.models.flatMap((it, model) =>
+          it.facts.warnings.map((remark) => ({ ...remark, model })),
+        );
         const volume = this.model.models.reduce((sum, it) => sum + it.facts.volume_mm3, 0);
         const triangles = this.model.models.reduce((sum, it) => sum + it.facts.triangles, 0);
         return html`
           <p class="facts">
             <span>${t.format.volume(volume)}</span><span>${t.model.triangles(triangles)}</span>
           </p>
-          ${remarks.map((message) => html`<p class="remark">${message}</p>`)}
+          ${remarks.map(({ message, code, model }) => html`<p class="remark">${message} ${this.#unit(code, model)}</p>`)}
         `;
       }
       default:
         return this.model satisfies never;
     }
+  }
+
+  /** The size that a guess at the file's unit gives; nothing is scaled unasked. */
+  #unit(code: string, model: number): TemplateResult | typeof nothing {
+    const factor = unitFactors[code];
+    if (factor === undefined) return nothing;
+    return html`<button type="button" class="link" @click=${() => this.tell<ScaleModel>('scale-model', { model, factor })}>
+      ${t.mend.times(factor)}
+    </button>`;
   }
 
   #choose(how: 'open' | 'add'): void {

@@ -1,6 +1,7 @@
 // The page: the steps' bar, the chosen step's panel beside the view that all steps share, and the job.
 import { html, nothing, type TemplateResult } from 'lit';
 import { t } from '../i18n/text.ts';
+import type { Edit } from '../messages.ts';
 import type { ThemeChoice } from '../preferences.ts';
 import type { PrintSession } from '../printer/print-session.ts';
 import { isBusy, isStale, type Step } from '../state.ts';
@@ -141,6 +142,7 @@ export class FootholdApp extends StepPart {
       .done=${this.state.result !== undefined}
       .stale=${isStale(this.state)}
       @slice=${() => void this.session?.slice()}
+      @mend=${({ detail }: CustomEvent<Edit>) => void this.session?.mend(detail)}
       @cancel=${() => this.session?.cancel()}
       @download=${() => this.session?.download()}
     ></job-bar>`;

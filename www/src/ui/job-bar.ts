@@ -1,11 +1,12 @@
 // The job: slice, how far it is, cancel, download.
 import { html, nothing, type TemplateResult } from 'lit';
 import { t } from '../i18n/text.ts';
+import type { Edit } from '../messages.ts';
 import { type JobState, shareOf } from '../state.ts';
 import { Part } from './part.ts';
 import { problemBox } from './problem-box.ts';
 
-/** Sends `slice`, `cancel` and `download`. */
+/** Sends `slice`, `cancel` and `download`, and `mend` with an Edit for every part. */
 export class JobBar extends Part {
   static override properties = {
     job: { attribute: false },
@@ -74,7 +75,7 @@ export class JobBar extends Part {
       case 'done':
         return this.stale ? html`<p class="remark">${t.job.stale}</p>` : nothing;
       case 'failed':
-        return problemBox(this.job.problem);
+        return problemBox(this.job.problem, (fix) => this.tell<Edit>('mend', fix));
       case 'running': {
         const { stage, done, total } = this.job.progress;
         return html`

@@ -58,7 +58,7 @@ export class PartList extends Element {
     this.models = [];
     this.parts = [];
     this.selected = undefined;
-    this.room = [220, 220, 250];
+    this.room = [220, 220, 250, 0, 0, false];
     this.laying = false;
     this.canClick = false;
     this.plate = {};

@@ -11,6 +11,7 @@ import { roomOf } from '../settings/room.ts';
 import { canDrawSpace } from '../view/webgl.ts';
 import './base-layer-panel.ts';
 import './drop-zone.ts';
+import type { ScaleModel } from './drop-zone.ts';
 import './face-chooser.ts';
 import './orientation-panel.ts';
 import './part-list.ts';
@@ -39,6 +40,8 @@ export class PrepareStep extends StepPart {
           .starting=${engine === 'starting'}
           @open-files=${({ detail }: CustomEvent<readonly File[]>) => void this.session?.open(detail.map(sourceOf))}
           @add-files=${({ detail }: CustomEvent<readonly File[]>) => void this.session?.add(detail.map(sourceOf))}
+          @scale-model=${({ detail: { model, factor } }: CustomEvent<ScaleModel>) =>
+            void this.session?.changeAll({ kind: 'scale', factors: [factor, factor, factor] }, model)}
         ></drop-zone>
         ${model.kind === 'open' ? this.#parts(model.models) : nothing}
       </section>
@@ -106,13 +109,22 @@ export class PrepareStep extends StepPart {
         @lay-flat=${({ detail }: CustomEvent<boolean>) => this.store?.update({ laying: detail })}
       ></part-list>
       ${laying && chosen !== undefined ? this.#faces(chosen) : nothing}
-      ${
-        parts.length > 1
-          ? html`<button type="button" class="button small" @click=${() => void this.session?.arrange()}>
-            ${t.parts.arrange}
-          </button>`
-          : nothing
-      }
+      <div class="row">
+        ${
+          parts.length > 1
+            ? html`<button type="button" class="button small" @click=${() => void this.session?.arrange()}>
+              ${t.parts.arrange}
+            </button>`
+            : nothing
+        }
+        ${
+          parts.length > 0
+            ? html`<button type="button" class="button small" @click=${() => void this.session?.exportStl()}>
+              ${t.parts.exportStl}
+            </button>`
+            : nothing
+        }
+      </div>
       ${trouble === undefined ? nothing : problemBox(trouble)}
     `;
   }

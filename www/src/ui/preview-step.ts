@@ -23,6 +23,8 @@ export class PreviewStep extends StepPart {
         .colours=${flat ? nothing : this.#colours()}
         @layer-change=${({ detail }: CustomEvent<number>) => this.session?.showLayer(detail)}
         @fix=${({ detail }: CustomEvent<readonly string[]>) => void this.session?.fix(detail)}
+        @drop-parts=${() => void this.session?.mend({ kind: 'drop' })}
+        @move-aside=${() => void this.session?.moveAside()}
         @roles-change=${({ detail }: CustomEvent<ReadonlySet<string>>) => this.store?.update({ hidden: detail })}
       >
       </result-figures>

@@ -1,16 +1,40 @@
 // An error in words, with what to do about it.
-import { html, type TemplateResult } from 'lit';
+import { html, nothing, type TemplateResult } from 'lit';
 import type { ProblemName } from '../i18n/en.ts';
 import { t } from '../i18n/text.ts';
+import type { Edit } from '../messages.ts';
 import type { Problem } from '../state.ts';
 
-export function problemBox(problem: Problem): TemplateResult {
+/** `mend` makes the change that the problem proposes; without it none is offered. */
+export function problemBox(problem: Problem, mend?: (fix: Edit) => void): TemplateResult {
+  const { fix } = problem;
   const known = t.problem[problem.name in t.problem ? (problem.name as ProblemName) : 'InternalError'];
   return html`
     <div class="problem" role="alert">
       <p class="problem-title">${known.title}</p>
       <p>${problem.message}</p>
       <p class="advice">${known.advice}</p>
+      ${
+        fix === undefined || mend === undefined
+          ? nothing
+          : html`<button type="button" class="button small" @click=${() => mend(fix)}>${nameOf(fix)}</button>`
+      }
     </div>
   `;
+}
+
+/** What a change to the parts is called. */
+function nameOf(edit: Edit): string {
+  switch (edit.kind) {
+    case 'turn':
+      return t.mend.turn(edit.angle_deg);
+    case 'turn_up':
+      return t.mend.lay;
+    case 'scale':
+      return t.mend.scale(100 * edit.factors[0]);
+    case 'drop':
+      return t.mend.drop;
+    default:
+      return t.job.slice;
+  }
 }

@@ -1,10 +1,9 @@
 // What the print takes: time, filament, cost, and which colour stands for what.
 import { html, nothing, type TemplateResult } from 'lit';
-import type { Report } from '../generated/report.ts';
 import { t } from '../i18n/text.ts';
 import type { LegendEntry } from '../messages.ts';
 import { words } from '../settings/fields.ts';
-import type { Remark } from '../state.ts';
+import type { Figures, Remark } from '../state.ts';
 import type { RoleColour } from '../view/colours.ts';
 import { Part } from './part.ts';
 
@@ -22,7 +21,7 @@ interface Row {
   readonly time_s: number;
 }
 
-/** Sends `layer-change` when a remark's layer is chosen, `roles-change` with the roles to leave out. */
+/** Sends `layer-change` when a remark's layer is chosen, `fix`, `drop-parts` or `move-aside` for what mends it, `roles-change` with the roles to leave out. */
 export class ResultFigures extends Part {
   static override properties = {
     report: { attribute: false },
@@ -33,7 +32,7 @@ export class ResultFigures extends Part {
     fixing: { attribute: false },
     colours: { attribute: false },
   };
-  declare report: Report | undefined;
+  declare report: Figures | undefined;
   declare legend: readonly LegendEntry[];
   /** Colours of all roles. */
   declare roles: readonly RoleColour[];
@@ -79,7 +78,7 @@ export class ResultFigures extends Part {
     </section>`;
   }
 
-  #figures(report: Report): TemplateResult {
+  #figures(report: Figures): TemplateResult {
     const { filament, time_s, layers } = report;
     const figures = [
       [t.figures.time, t.format.duration(time_s)],
@@ -93,7 +92,7 @@ export class ResultFigures extends Part {
     </dl>`;
   }
 
-  #legend(report: Report): TemplateResult {
+  #legend(report: Figures): TemplateResult {
     return html`<table class="legend">
       <caption>${t.figures.legend}</caption>
       <thead>
@@ -174,8 +173,13 @@ export class ResultFigures extends Part {
   }
 
   /** What would mend it, at one press. */
-  #fix({ fix = [] }: Remark): TemplateResult | typeof nothing {
-    if (fix.length === 0 || !this.fixing) return nothing;
+  #fix({ code, fix = [] }: Remark): TemplateResult | typeof nothing {
+    const link = (label: string, event: string): TemplateResult =>
+      html`<button type="button" class="link" @click=${() => this.tell(event)}>${label}</button>`;
+    if (!this.fixing) return nothing;
+    if (code === 'not_on_bed') return link(t.mend.drop, 'drop-parts');
+    if (code === 'forbidden_zone') return link(t.mend.aside, 'move-aside');
+    if (fix.length === 0) return nothing;
     return html`<button type="button" class="link" @click=${() => this.tell<readonly string[]>('fix', fix)}>
       ${t.figures.fix(fix.join(', '))}
     </button>`;
@@ -183,7 +187,7 @@ export class ResultFigures extends Part {
 }
 
 /** The report's roles with those of one colour together, in the report's order. */
-function rowsOf(report: Report): readonly Row[] {
+function rowsOf(report: Figures): readonly Row[] {
   const rows = new Map<unknown, Row>();
   for (const [role, { length_mm, time_s }] of Object.entries(report.by_role)) {
     if (length_mm === 0) continue;

@@ -113,7 +113,7 @@ export class SpaceView extends Element {
     this.model = { kind: 'none' };
     this.parts = [];
     this.selected = undefined;
-    this.room = [220, 220, 250];
+    this.room = [220, 220, 250, 0, 0, false];
     this.dark = false;
     this.result = undefined;
     this.layer = 0;
@@ -340,8 +340,8 @@ export class SpaceView extends Element {
 
   /** The box that the picture shows at first: the parts, or the bed when there are none. */
   #seen(): readonly number[] {
-    const [width, depth] = this.room;
-    if (this.parts.length === 0) return [0, 0, 0, width, depth, 1];
+    const [width, depth, , x, y] = this.room;
+    if (this.parts.length === 0) return [x, y, 0, x + width, y + depth, 1];
     const pick = (k: number, best: (...values: number[]) => number): number =>
       best(...this.parts.map(({ box }) => box[k] ?? 0));
     return [0, 1, 2].map((k) => pick(k, Math.min)).concat([3, 4, 5].map((k) => pick(k, Math.max)));
