@@ -96,7 +96,11 @@ export class SpaceView extends Element {
   readonly #pointers = new Map<number, Spot>();
   #batches: Moves[] = [];
   /** What the stage shows, so that only changes are told to it. */
-  #told: Partial<Record<'models' | 'result' | 'side' | 'colours' | 'palette' | 'bed' | 'seen', unknown>> = {};
+  /** Where the parts were when the bed changed; the picture follows them once. */
+  #leaving: readonly Part[] | undefined;
+  #told: Partial<
+    Record<'models' | 'result' | 'side' | 'colours' | 'palette' | 'bed' | 'room' | 'opened' | 'seen', unknown>
+  > = {};
   #measured: Point | undefined;
   /** Parts when they were shown last: the camera looks at all of them when there are more. */
   #count = 0;
@@ -209,6 +213,18 @@ export class SpaceView extends Element {
     if (this.#told.bed === bed) return;
     this.#told.bed = bed;
     stage.dress(this.room, this.dark);
+    const before = this.#told.room;
+    this.#told.room = String(this.room);
+    if (before === undefined || before === this.#told.room) return;
+    this.#orbit = undefined;
+    // The parts move to the middle of the new bed in a moment.
+    this.#leaving = this.parts;
+  }
+
+  /** An opened file stands where it says, not where the parts are. */
+  #opened(): Result | undefined {
+    const { result } = this;
+    return this.show === 'beads' && result !== undefined && result.sliced === undefined ? result : undefined;
   }
 
   #showParts(stage: Stage): void {
@@ -220,7 +236,9 @@ export class SpaceView extends Element {
       stage.forget();
       this.#orbit = undefined;
     }
-    if (this.parts.length > this.#count) this.#orbit = undefined;
+    const arrived = this.#leaving !== undefined && this.#leaving !== this.parts;
+    if (arrived) this.#leaving = undefined;
+    if (arrived || this.parts.length > this.#count) this.#orbit = undefined;
     this.#count = this.parts.length;
     for (const model of new Set(this.parts.map((it) => it.model))) {
       const triangles = models[model]?.facts.triangles ?? 0;
@@ -330,6 +348,11 @@ export class SpaceView extends Element {
   }
 
   #aim(stage: Stage): void {
+    const opened = this.#opened();
+    if (this.#told.opened !== opened) {
+      this.#told.opened = opened;
+      this.#orbit = undefined;
+    }
     if (this.#told.side !== this.side) {
       this.#told.side = this.side;
       this.#orbit = undefined;
@@ -340,6 +363,8 @@ export class SpaceView extends Element {
 
   /** The box that the picture shows at first: the parts, or the bed when there are none. */
   #seen(): readonly number[] {
+    const opened = this.#opened();
+    if (opened !== undefined) return opened.report.model.bounds.flat();
     const [width, depth, , x, y] = this.room;
     if (this.parts.length === 0) return [x, y, 0, x + width, y + depth, 1];
     const pick = (k: number, best: (...values: number[]) => number): number =>
