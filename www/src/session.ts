@@ -126,6 +126,8 @@ export class Session {
     };
     update({ job: { kind: 'running', progress: { stage: 'read', done: 0, total: 0 } } });
     try {
+      // The lanes of a job that was cancelled end in a moment: what is asked before would end with them.
+      await new Promise((resolve) => setTimeout(resolve));
       const settings = await this.#settings();
       const gcode = await readGcode(source, (it) => this.#pool.gcode(it, settings));
       const found = JSON.parse(gcode.joined.report) as GcodeFigures;
