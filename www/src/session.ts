@@ -189,9 +189,10 @@ export class Session {
     await this.#edit(async ({ parts }) => {
       const changed = parts.map(async (part) => {
         if (model !== undefined && part.model !== model) return part;
-        return standing(part.id, part.model, await this.#pool.edit(part.model, part.matrix, edit));
+        const stand = await this.#pool.edit(part.model, part.matrix, edit);
+        return { ...part, ...standing(part.id, part.model, stand) };
       });
-      return { parts: await this.#arranged(await Promise.all(changed)), arranged: edit.kind === 'drop' };
+      return { parts: await this.#arranged(await Promise.all(changed)), arranged: false };
     });
   }
 
