@@ -2,7 +2,8 @@
 
 use wasm_bindgen::prelude::*;
 
-use super::convert::{Thrown, gcode_file_error, internal_error, settings_from};
+use super::convert::{gcode_file_error, settings_from};
+use super::error::{Thrown, internal_error};
 use crate::gcode::inspect::{InspectedGcode, Inspector};
 
 /// Reads a G-code file from chunks of any size.

@@ -38,7 +38,7 @@ export async function readGcode(
   { name, file }: ModelSource,
   index: (source: ModelSource) => Promise<GcodeIndex>,
 ): Promise<Gcode> {
-  if (file.size > LARGEST) throw new EngineError({ ...tooLarge(file.size), source: name });
+  refuseTooLarge(file.size);
   const found = await index({ name, file });
   return openedGcode(new Uint8Array(await file.slice(0, file.size).arrayBuffer()), name, found);
 }
