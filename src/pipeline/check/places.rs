@@ -4,9 +4,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::Warning;
+use crate::polygon::island::inner_point;
 use crate::polygon::{DVec2, Join, Polygon, PolygonSet};
 use crate::region::bridge::Bridge;
-use crate::region::overhang::{inner_point, permissible_step};
+use crate::region::overhang::permissible_step;
 use crate::region::{Path, Role, Width};
 use crate::settings::Settings;
 use crate::sort::StableSort;
