@@ -63,7 +63,10 @@ fn check_model(name: &str, file: &Value, found: &Inspection) {
     if file["kind"] == "good" {
         assert_eq!((found.open_edges, found.flipped_faces, found.inverted_shells), (0, 0, 0), "{name}");
         assert_eq!(found.shells as u64, file["shells"].as_u64().unwrap_or(1), "{name}");
-        assert!(codes(found).iter().all(|c| *c == "merged_vertices"), "{name}: {:?}", found.warnings);
+        // A part of 3 mm may well be one in inches, and that is only asked.
+        let is_tiny = (0..3).all(|i| found.bounds.max[i] - found.bounds.min[i] < 4.0);
+        let is_fair = |code: &str| code == "merged_vertices" || (code == "unit_inch" && is_tiny);
+        assert!(codes(found).iter().all(|c| is_fair(c)), "{name}: {:?}", found.warnings);
     }
 }
 

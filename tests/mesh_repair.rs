@@ -218,16 +218,16 @@ fn a_sheet_has_no_inside() {
     let sheet = Mesh { vertices: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]] };
     let found = load(&write_binary(&sheet)).expect("a triangle with an area").inspection;
     let codes: Vec<&str> = found.warnings.iter().map(|w| w.code).collect();
-    assert_eq!(codes, ["open_edges", "no_volume"]);
+    assert_eq!(codes, ["open_edges", "no_volume", "unit_inch"]);
     assert_eq!((found.open_edges, found.area_mm2, found.volume_mm3), (3, 0.5, 0.0));
 }
 
 #[test]
 fn the_inspection_reads_as_json() {
-    let found: Inspection = load(&write_binary(&cube(2.0))).expect("sound").inspection;
+    let found: Inspection = load(&write_binary(&cube(20.0))).expect("sound").inspection;
     let json = serde_json::to_value(&found).expect("plain numbers");
-    assert_eq!(json["bounds"]["max"], serde_json::json!([2.0, 2.0, 2.0]));
-    assert_eq!((&json["triangles"], &json["volume_mm3"]), (&12.into(), &8.0.into()));
+    assert_eq!(json["bounds"]["max"], serde_json::json!([20.0, 20.0, 20.0]));
+    assert_eq!((&json["triangles"], &json["volume_mm3"]), (&12.into(), &8000.0.into()));
     assert_eq!(json["format"], "binary");
     assert_eq!(json["warnings"], serde_json::json!([]));
 }

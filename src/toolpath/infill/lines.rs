@@ -507,8 +507,10 @@ mod tests {
         for layer in 0..2 {
             let hatch = Hatch::diagonal(layer, BEAD.spacing());
             let (paths, narrow) = hatch_linked(&square, Role::SolidInfill, BEAD, hatch);
-            assert!(narrow.is_empty());
-            assert!((plastic(&paths) / 400.0 - 1.0).abs() < 0.005, "{}", plastic(&paths));
+            // Two corners lie beyond the last lines, each less than two lines wide.
+            assert!(narrow.area() < 0.4, "{narrow:?}");
+            let all = plastic(&paths) + narrow.area();
+            assert!((all / 400.0 - 1.0).abs() < 0.005, "{all}");
             assert!(paths.len() <= 3, "{} beads", paths.len());
         }
     }
