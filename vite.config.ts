@@ -1,6 +1,7 @@
 import { createHash } from 'node:crypto';
 import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { defineConfig, type Plugin } from 'vite';
+import { crateLicences } from './scripts/crate-licences.mjs';
 
 const out = 'dist/page';
 
@@ -21,7 +22,7 @@ export default defineConfig({
     },
   },
   worker: { format: 'es' },
-  plugins: [knowingFiles()],
+  plugins: [crateLicences(), knowingFiles()],
   preview: { port: 4173 },
 });
 

@@ -1,4 +1,5 @@
 import { defineConfig } from 'vite';
+import { crateLicences } from './scripts/crate-licences.mjs';
 
 // <foothold-slicer>: one module to name, and beside it what that loads, all by addresses relative to the module.
 export default defineConfig({
@@ -20,6 +21,7 @@ export default defineConfig({
       output: { entryFileNames: 'foothold-slicer.js' },
     },
   },
+  plugins: [crateLicences()],
   // A worker's module is one file: bundlers of host pages copy it, and would not see what it imports.
   worker: { format: 'es', rolldownOptions: { output: { codeSplitting: false } } },
 });

@@ -19,7 +19,7 @@ import { step } from './step.mjs';
 const quick = process.env.FOOTHOLD_QUICK === '1';
 const profile = quick ? 'quick' : 'release';
 const rust = ['src', 'crates', 'Cargo.toml', 'Cargo.lock', 'rust-toolchain.toml', '.cargo'];
-const web = ['www', 'profiles', 'package-lock.json'];
+const web = ['www', 'profiles', 'package-lock.json', 'Cargo.lock', 'scripts/crate-licences.mjs'];
 
 export async function build() {
   await npmPackages();

@@ -9,6 +9,7 @@ test('slice with everything', () => {
     models: ['a.stl', 'b.stl'],
     out: 'out.gcode',
     settings: { profiles: {}, files: ['f.json'], sets: ['walls.count=2', 'x.y=z'] },
+    own: [],
     report: 'r.json',
     workers: 3,
   });

@@ -93,7 +93,7 @@ test('a free spot is inside, apart from the others, and near the middle', () => 
 });
 
 test('parts that nobody moved are left to the engine', () => {
-  expect(asStanding([cube, cube], true)).toEqual({ models: [0, 0], placements: [] });
+  expect(asStanding([cube, cube], true)).toEqual({ models: [0, 0], placements: [], own: [] });
   expect(asStanding([cube], false).placements).toEqual([...UNMOVED]);
   expect(freeId([])).toBe(1);
   expect(freeId([part(7, []), cube])).toBe(8);

@@ -118,13 +118,7 @@ export class Session {
 
   /** Shows a G-code file of any slicer in Preview; models that are open stay so. */
   async #showGcode(source: ModelSource): Promise<void> {
-    this.#job?.abort();
-    const job = new AbortController();
-    this.#job = job;
-    const update = (change: Partial<State>): void => {
-      if (this.#job === job) this.#store.update(change);
-    };
-    update({ job: { kind: 'running', progress: { stage: 'read', done: 0, total: 0 } } });
+    const { update } = this.#begin();
     try {
       // The lanes of a job that was cancelled end in a moment: what is asked before would end with them.
       await new Promise((resolve) => setTimeout(resolve));
@@ -284,8 +278,8 @@ export class Session {
     return this.#slice(() => 'preview');
   }
 
-  async #slice(next: () => Step): Promise<void> {
-    if (this.#store.state.model.kind !== 'open') return;
+  /** Begins a job and ends the one before, whose updates do not count any more. */
+  #begin(): { signal: AbortSignal; update: (change: Partial<State>) => void } {
     this.#job?.abort();
     const job = new AbortController();
     this.#job = job;
@@ -293,8 +287,14 @@ export class Session {
       if (this.#job === job) this.#store.update(change);
     };
     update({ job: { kind: 'running', progress: { stage: 'read', done: 0, total: 0 } } });
+    return { signal: job.signal, update };
+  }
+
+  async #slice(next: () => Step): Promise<void> {
+    if (this.#store.state.model.kind !== 'open') return;
+    const { signal, update } = this.#begin();
     try {
-      const sliced = await this.#sliced(job.signal, (progress) => update({ job: { kind: 'running', progress } }));
+      const sliced = await this.#sliced(signal, (progress) => update({ job: { kind: 'running', progress } }));
       update({ ...sliced, step: next() });
     } catch (error) {
       update({ job: isCancel(error) ? { kind: 'cancelled' } : { kind: 'failed', problem: problemOf(error) } });
