@@ -96,7 +96,7 @@ for (const [name, outlines] of Object.entries(shapes)) {
   const reader = new engine.ModelReader();
   reader.push(prism(outlines));
   const settings = engine.resolve_settings([], ['printer.bed_size=[400,400]']);
-  const job = new engine.Job([reader.finish()], [name], settings, new Float64Array());
+  const job = new engine.Job([reader.finish()], [name], settings, new Float64Array(), []);
   const best = {};
   let least = Number.POSITIVE_INFINITY;
   for (let run = 0; run < 8; run++) {
