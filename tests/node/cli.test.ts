@@ -192,6 +192,23 @@ test('inspect counts and measures', async () => {
   });
 });
 
+test('place writes the parts as they stand on the bed', async () => {
+  const placed = await run('place cube.stl cube.stl --scale 2 -o placed.stl');
+  expect(placed).toMatchObject({ code: 0, err: '' });
+  await run('inspect placed.stl --report placed.json');
+  const { bounds, volume_mm3, shells } = JSON.parse(read('placed.json').toString()) as {
+    bounds: { min: number[]; max: number[] };
+    volume_mm3: number;
+    shells: number;
+  };
+  // Two cubes of 40 mm beside each other in the middle of the bed.
+  expect([shells, Math.round(volume_mm3)]).toEqual([2, 128_000]);
+  const [low = Number.NaN] = bounds.min;
+  const [high = Number.NaN] = bounds.max;
+  expect([bounds.min[2], bounds.max[2]]).toEqual([0, 40]);
+  expect(low + high).toBeCloseTo(220, 3);
+});
+
 test('draw writes a layer and a plane as SVG', async () => {
   expect(await run('draw cube.stl --layer 3 -o layer.svg')).toMatchObject({ code: 0, err: '' });
   expect(await run('draw cube.stl --plane y=110 -o plane.svg')).toMatchObject({ code: 0, err: '' });
