@@ -260,11 +260,9 @@ impl Job {
         let mut adhesion = Vec::new();
         let mut slicing_ms = 0.0;
         for k in 0..self.prints.len() {
-            let Prepared { support, mut warnings, adhesion_ms, support_ms, .. } = {
-                let prepared = self.prints[k].prepare(clock)?;
-                adhesion.push((prepared.adhesion, prepared.outline_mm));
-                prepared
-            };
+            let Prepared { adhesion: figures, outline_mm, support, mut warnings, adhesion_ms, support_ms } =
+                self.prints[k].prepare(clock)?;
+            adhesion.push((figures, outline_mm));
             let before = self.layers_before(k);
             warnings.iter_mut().for_each(|warning| warning.raise(before));
             self.warnings.extend(warnings);

@@ -1,5 +1,6 @@
 //! What is printed together from the bed up: all of the plate, or one model of several.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use super::range::{self, PRINT_RESOLUTION, RangePlan};
@@ -229,38 +230,31 @@ impl Print {
     }
 
     fn body_supports(&self, body: &Body) -> Result<Supports, JobError> {
-        let options = &body.settings.support;
-        check_options(options).map_err(JobError::Support)?;
-        if options.method == SupportMethod::None {
-            return Ok(Supports::default());
-        }
-        let areas = self.body_sections(body, &self.part_heights());
-        let own;
-        let mesh = if self.bodies.len() == 1 {
-            &self.mesh
-        } else {
-            own = self.mesh.subset(body.triangles().map(|t| t as usize));
-            &own
+        let mesh = || match self.bodies.len() {
+            1 => Cow::Borrowed(&self.mesh),
+            _ => Cow::Owned(self.mesh.subset(body.triangles().map(|t| t as usize))),
         };
-        self.supports_of(mesh, &areas, options)
+        let areas = || self.body_sections(body, &self.part_heights());
+        self.supports_of(&|| (mesh(), areas()), &body.settings.support)
     }
 
     /// Supports of all models by other settings than the print's.
     pub fn supports(&self, options: &SupportOptions) -> Result<Supports, JobError> {
+        self.supports_of(&|| (Cow::Borrowed(&self.mesh), self.areas()), options)
+    }
+
+    /// Supports of some models; `models` cuts them, which is not done without supports.
+    fn supports_of<'a>(
+        &'a self,
+        models: &dyn Fn() -> (Cow<'a, Mesh>, Vec<PolygonSet>),
+        options: &SupportOptions,
+    ) -> Result<Supports, JobError> {
         check_options(options).map_err(JobError::Support)?;
         if options.method == SupportMethod::None {
             return Ok(Supports::default());
         }
-        self.supports_of(&self.mesh, &self.areas(), options)
-    }
-
-    fn supports_of(
-        &self,
-        mesh: &Mesh,
-        areas: &[PolygonSet],
-        options: &SupportOptions,
-    ) -> Result<Supports, JobError> {
-        let input = SupportInput { mesh, layers: &self.specs, areas };
+        let (mesh, areas) = models();
+        let input = SupportInput { mesh: &mesh, layers: &self.specs, areas: &areas };
         plan_supports(&input, options, &mut |_, _| true).map_err(JobError::Support)
     }
 

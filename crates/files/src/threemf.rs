@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 use std::io::BufRead;
+use std::str::FromStr;
 
 use quick_xml::Reader;
 use quick_xml::XmlVersion;
@@ -411,38 +412,26 @@ fn whole(words: &[(String, String)], name: &str) -> Result<u32, String> {
     text.trim().parse().map_err(|_| format!("{name}=\"{text}\" is no number"))
 }
 
-/// Corner and triangle come by the million: their attributes are read without copies.
-fn vertex(start: &BytesStart<'_>) -> Result<[f64; 3], String> {
-    let mut found = [f64::NAN; 3];
+/// The numbers of three attributes. Corners and triangles come by the million: they are read without copies.
+fn three<T: FromStr + Copy>(start: &BytesStart<'_>, names: [&str; 3]) -> Result<[Option<T>; 3], String> {
+    let mut found = [None; 3];
     for attribute in start.attributes().with_checks(false) {
         let attribute = attribute.map_err(|e| e.to_string())?;
-        let place = match attribute.key.as_ref() {
-            "x" => 0,
-            "y" => 1,
-            "z" => 2,
-            _ => continue,
-        };
-        found[place] =
-            attribute.value.trim().parse().map_err(|_| format!("\"{}\" is no number", attribute.value))?;
+        if let Some(place) = names.iter().position(|name| *name == attribute.key.as_ref()) {
+            let value = attribute.value.trim().parse();
+            found[place] = Some(value.map_err(|_| format!("\"{}\" is no number", attribute.value))?);
+        }
     }
+    Ok(found)
+}
+
+fn vertex(start: &BytesStart<'_>) -> Result<[f64; 3], String> {
+    let found = three(start, ["x", "y", "z"])?.map(|x| x.unwrap_or(f64::NAN));
     if found.iter().all(|x| x.is_finite()) { Ok(found) } else { Err("a vertex needs x, y and z".to_owned()) }
 }
 
 fn triangle(start: &BytesStart<'_>) -> Result<[u32; 3], String> {
-    let mut found = [None; 3];
-    for attribute in start.attributes().with_checks(false) {
-        let attribute = attribute.map_err(|e| e.to_string())?;
-        let place = match attribute.key.as_ref() {
-            "v1" => 0,
-            "v2" => 1,
-            "v3" => 2,
-            _ => continue,
-        };
-        let value =
-            attribute.value.trim().parse().map_err(|_| format!("\"{}\" is no number", attribute.value))?;
-        found[place] = Some(value);
-    }
-    match found {
+    match three(start, ["v1", "v2", "v3"])? {
         [Some(a), Some(b), Some(c)] => Ok([a, b, c]),
         _ => Err("a triangle needs v1, v2 and v3".to_owned()),
     }

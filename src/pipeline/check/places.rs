@@ -86,8 +86,8 @@ impl Findings<'_> {
         let width = self.settings.walls.width;
         let narrow = |path: &Path| {
             let stretch = NarrowStretch::of(path, NARROW_SHARE * width);
-            let at = stretch.length >= WALL_LENGTH * width;
-            at.then(|| self.finding(Fault::ThinWall, stretch.at, width - stretch.mean_width()))
+            let is_wall = stretch.length >= WALL_LENGTH * width;
+            is_wall.then(|| self.finding(Fault::ThinWall, stretch.at, width - stretch.mean_width()))
         };
         beads.filter_map(narrow).max_by(|a, b| a.size.total_cmp(&b.size))
     }
