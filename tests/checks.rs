@@ -197,25 +197,75 @@ fn places_are_told_once_for_the_whole_job() {
     assert_eq!(codes(&found), ["thin_wall"]);
 }
 
-/// What the checks say of the good models, looked at in pictures of their layers.
+/// A block of 20 x 20 x 6 mm with a fin of 10 mm and this thickness on its right side.
+fn finned(thickness: f32) -> Mesh {
+    let block = common::cuboid(Vec3::ZERO, vec3(20.0, 20.0, 6.0));
+    let fin = common::cuboid(vec3(19.0, 10.0, 0.0), vec3(30.0, 10.0 + thickness, 6.0));
+    common::together(&[block, fin])
+}
+
+#[test]
+fn a_fin_that_gets_no_line_is_told_where_it_is() {
+    let found = warnings(&finned(0.08), &[]);
+    assert_eq!(codes(&found), ["lost_wall"]);
+    let told = found.iter().find(|w| w.code == "lost_wall").expect("told");
+    // 30 layers of 0.2 mm, the first of which is not looked at.
+    assert_eq!(
+        (told.layer, &told.message[..]),
+        (Some(1), "a wall is too thin for any line here: it is left out (on 29 layers)")
+    );
+    // The whole is 30 mm long and stands at 95 to 125; the fin in its last third.
+    let [x, y] = told.at.expect("a place");
+    assert!((115.0..125.0).contains(&x) && (y - 110.0).abs() < 0.1, "{x} {y}");
+    assert_eq!(told.fix, ["walls.horizontal_expansion=0.23"]);
+    assert!(codes(&warnings(&finned(0.08), &[told.fix[0].as_str()])).is_empty());
+    // From a tenth of a millimetre on it gets a narrow line, and from a line's width on nothing is said.
+    assert_eq!(codes(&warnings(&finned(0.2), &[])), ["thin_wall"]);
+    assert!(codes(&warnings(&finned(0.5), &[])).is_empty());
+}
+
+/// A part without walls is no lost wall.
+#[test]
+fn no_walls_are_no_lost_walls() {
+    assert!(codes(&warnings(&common::cube(5.0), &["walls.count=0"])).is_empty());
+}
+
+/// What the checks say of the models, with the reason for each remark, looked at in pictures of the layers.
 #[test]
 fn real_models_are_passed_or_rightly_told() {
     let Some(dir) = common::models_dir() else { return };
-    // The feature tester has balconies and a fin as
-    // thin as a razor; the bridge tester's longest bridge has 50 mm; islands hang in the support tester.
-    let expected: [(&str, &[&str]); 12] = [
+    let expected: [(&str, &[&str]); 24] = [
         ("angle_block_mm.stl", &[]),
+        // Its longest bridge has 50 mm.
         ("bridge_test.stl", &["long_bridge"]),
         ("cal_cube.stl", &[]),
+        // Balconies, and a fin as thin as a razor.
         ("featuretype_mm.stl", &["overhang", "thin_wall"]),
+        ("halfdonut_ascii_tiny.stl", &[]),
         ("hole_test.stl", &[]),
+        // A letter is cut out of its lid, whose lines end in the air around it.
+        ("hollow_cube_ascii.stl", &["overhang"]),
         ("idler_riser_mm.stl", &[]),
+        // Bodies beside and above each other.
         ("multibody_mm.stl", &["overhang", "floating_island"]),
+        // Steps up to 80 degrees out of the vertical.
         ("overhang.stl", &["overhang"]),
+        ("own_arch_ascii.stl", &[]),
+        ("own_hinge.stl", &[]),
+        ("own_hinge_dup.stl", &[]),
+        ("own_hinge_flipped.stl", &[]),
+        ("own_overlap.stl", &[]),
+        ("own_wedge_crlf_upper.stl", &[]),
+        ("own_wedge_open.stl", &[]),
+        ("own_wedge_solidheader.stl", &[]),
         ("retract_tower.stl", &[]),
+        // Islands hang in the air.
         ("support_test.stl", &["floating_island"]),
+        // Walls of a tenth of a millimetre and more.
         ("thin_wall.stl", &["thin_wall"]),
         ("tolerance.stl", &[]),
+        ("two_objects_ascii.stl", &[]),
+        ("xy_calibration.stl", &[]),
     ];
     let found = expected.map(|(name, _)| {
         let bytes = std::fs::read(dir.join(name)).expect("a model");

@@ -152,6 +152,7 @@ fn each_printer_prints_a_cube_on_its_bed() {
         let text = sliced(&sized_cube(), all.clone());
         assert_stays_on_bed(&p.id, &text, &all);
         assert_begins_and_ends_rightly(&p.id, &text, &all);
+        assert_moves_safely(&p.id, &text);
     }
 }
 
@@ -161,7 +162,9 @@ fn each_printer_prints_a_real_model_on_its_bed() {
     let bytes = fs::read(dir.join("angle_block_mm.stl")).expect("a model");
     for p in &profiles("printers") {
         let all = settings(&[p], &["layers.height=0.28"]);
-        assert_stays_on_bed(&p.id, &sliced(&bytes, all.clone()), &all);
+        let text = sliced(&bytes, all.clone());
+        assert_stays_on_bed(&p.id, &text, &all);
+        assert_moves_safely(&p.id, &text);
     }
 }
 
@@ -178,7 +181,9 @@ fn expected(id: &str) -> &'static [&'static str] {
         }
         "delta" => &["M140 S60", "M190 S60", "G28", "M109 S215", "M104 S0", "M140 S0", "G28", "M84"],
         // Creality's macros for K1 and its kin heat, home and level; END_PRINT undoes it.
-        "k1" | "ender3_v3" => &["START_PRINT EXTRUDER_TEMP=215 BED_TEMP=60", "END_PRINT"],
+        "k1" | "ender3_v3" => {
+            &["START_PRINT EXTRUDER_TEMP=215 BED_TEMP=60", "M190 S60", "M109 S215", "END_PRINT"]
+        }
         // docs.vorondesign.com: PRINT_START homes and levels the gantry, PRINT_END switches off.
         "voron24" => &["M190 S60", "PRINT_START", "M109 S215", "PRINT_END"],
         // help.prusa3d.com: G28 W homes without levelling, G80 probes the mesh.
@@ -206,8 +211,7 @@ fn assert_begins_and_ends_rightly(id: &str, text: &str, settings: &Settings) {
         rest = &rest[at + 1..];
     }
     // Nothing is extruded before the nozzle is hot.
-    let hot =
-        text.lines().position(|l| l.starts_with("M109 S215") || l.starts_with("START_PRINT")).expect("heats");
+    let hot = text.lines().position(|l| l.starts_with("M109 S215")).expect("heats");
     let first = Reader::new(text.as_bytes()).find(|m| m.filament_mm > 0.0).expect("extrudes");
     assert!(first.line as usize > hot + 1, "{id}");
     // Klipper's macros switch off; elsewhere the file does.
@@ -217,6 +221,46 @@ fn assert_begins_and_ends_rightly(id: &str, text: &str, settings: &Settings) {
     assert!(is_off, "{id}: {last:?}");
     let is_klipper = settings.printer.flavor == Flavor::Klipper;
     assert_eq!(is_klipper, text.contains("SET_VELOCITY_LIMIT"), "{id}");
+}
+
+/// The lowest that the head may travel before the first layer, mm.
+const LOWEST_FIRST_TRAVEL: f64 = 2.0;
+
+/// What any owner asks of the lines around the print, whatever the printer: home before the first move,
+/// never across the bed at the height of a layer, fill the nozzle; then pull back, rise before going away,
+/// and leave heaters, fan and motors off.
+#[track_caller]
+fn assert_moves_safely(id: &str, text: &str) {
+    let code = |line: &str| line.split(';').next().unwrap_or_default().trim().to_owned();
+    let lines: Vec<String> = text.lines().map(code).collect();
+    let part = text.lines().position(|l| l == ";LAYER_CHANGE").expect("layers");
+    let is_move = |l: &String| l.starts_with("G0 ") || l.starts_with("G1 ");
+    let homes = |l: &String| ["G28", "START_PRINT", "PRINT_START"].iter().any(|word| l.starts_with(word));
+    let homed = lines.iter().position(homes).expect("homes");
+    assert!(lines.iter().position(is_move).is_some_and(|first| first > homed), "{id} moves before it homes");
+
+    let before: Vec<_> =
+        Reader::new(text.as_bytes()).take_while(|step| (step.line as usize) <= part).collect();
+    for step in before.iter().filter(|step| step.moves_in_plane() && step.filament_mm <= 0.0) {
+        assert!(step.to[2] >= LOWEST_FIRST_TRAVEL, "{id}: line {} travels at {}", step.line, step.to[2]);
+    }
+    let primed: f64 = before.iter().map(|step| step.filament_mm).sum();
+    // The macro of K1 draws a line of its own.
+    assert!(primed > 2.0 || id == "k1", "{id}: {primed} mm of filament before the part");
+
+    let steps: Vec<_> = Reader::new(text.as_bytes()).collect();
+    let last = steps.iter().rposition(|step| step.filament_mm > 0.0 && step.moves_in_plane()).expect("beads");
+    let after = &steps[last + 1..];
+    let pulled: f64 = after.iter().map(|step| step.filament_mm).sum();
+    assert!(pulled < 0.0 && after[0].filament_mm < 0.0, "{id}: {pulled} mm after the last bead");
+    let top = steps[last].to[2];
+    for step in after.iter().filter(|step| step.moves_in_plane()) {
+        assert!(step.from[2] >= top + 2.0, "{id}: line {} leaves at {}", step.line, step.from[2]);
+    }
+    let end = &lines[steps[last].line as usize..];
+    let says = |word: &str| end.iter().any(|l| l == word || l.starts_with(&format!("{word} ")));
+    let by_macro = says("END_PRINT") || says("PRINT_END");
+    assert!(by_macro || (says("M84") && (says("M107") || says("M106 S0"))), "{id}: {end:?}");
 }
 
 /// On a delta the origin is the centre, and corners of the square around the bed are no place to print.

@@ -6,7 +6,9 @@
 //! - Klipper: klipper3d.org/G-Codes.html (M106, M107, SET_VELOCITY_LIMIT, SET_PRESSURE_ADVANCE,
 //!   EXCLUDE_OBJECT; M73 with `[display_status]`; arcs only with `[gcode_arcs]`, so none are written).
 //! - RepRapFirmware: docs.duet3d.com, "GCode dictionary" (M73, M106, M204, M486, M572; M107 is deprecated).
-//! - Prusa: help.prusa3d.com, "Prusa Firmware-specific G-code commands" (M73 Q S, M486, M900).
+//! - Prusa: help.prusa3d.com, "Prusa Firmware-specific G-code commands" (M73 Q S, M486, M900) for the i3
+//!   printers up to MK3S, and "Buddy firmware-specific G-code commands" for MINI and MK4, whose files for
+//!   firmware 5.1 and later set pressure advance with M572 S.
 //! - Repetier: Repetier-Firmware's list of codes, Repetier.ino and reprap.org/wiki/G-code (M201 print and
 //!   M202 travel acceleration; M204 sets PID values there; no M73; M233's unit is not the others' K).
 //! - Bambu: the community's lists (github.com/rjduran/bambu-gcode-reference): M73, M106, M204 S, M400 U1
@@ -120,6 +122,8 @@ impl Flavor {
                 pause: "M601\n",
                 pause_parks: true,
                 progress: "M73 P{percent} R{minutes}\nM73 Q{percent} S{minutes}\n",
+                // The same value in the same unit; a firmware passes over the command that it does not know.
+                pressure_advance: "M900 K{pressure_advance}\nM572 S{pressure_advance}\n",
                 labels: ObjectLabels::NamedM486,
                 ..MARLIN
             },

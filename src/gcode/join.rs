@@ -19,6 +19,10 @@ const PRIME_MARGIN: [f64; 2] = [5.0, 3.0];
 /// Width of the prime line in nozzle diameters: wide, so that it sticks and carries much.
 const PRIME_WIDTH: f64 = 1.5;
 
+/// Height of the first travel behind start code that has not said how high the nozzle is, mm: above clips
+/// and what has oozed.
+const FIRST_TRAVEL: f64 = 2.0;
+
 /// How far the nozzle rises over all that is printed on the way to the next of models printed one after
 /// another, mm: corners that have warped and strings stand up.
 const OVER_MODELS: f64 = 2.0;
@@ -227,13 +231,17 @@ impl<'a> Route<'a> {
 
     /// The start code, and the prime line unless the code has extruded something itself.
     fn start(&mut self, text: &str, facts: PrintFacts) -> Way {
-        let time_s = self.other_hands(text);
-        if self.filament_mm > 0.0 {
-            return Way { time_s, ..Way::default() };
+        let mut time_s = self.other_hands(text);
+        let mut moves = Vec::new();
+        if self.z == 0 && facts.layer_count > 0 {
+            moves.push(Move::Lift { z: micrometres(FIRST_TRAVEL), feed: z_feed(self.options) });
+            time_s += self.book(&moves);
         }
-        let moves = self.prime_line(facts);
-        let bead_height = (!moves.is_empty()).then(|| micrometres(self.prime_height(facts)));
-        Way { bead_height, time_s: time_s + self.book(&moves), moves, stops: Vec::new() }
+        let prime = if self.filament_mm > 0.0 { Vec::new() } else { self.prime_line(facts) };
+        let bead_height = (!prime.is_empty()).then(|| micrometres(self.prime_height(facts)));
+        time_s += self.book(&prime);
+        moves.extend(prime);
+        Way { bead_height, time_s, moves, stops: Vec::new() }
     }
 
     /// As high as the first layer, if that is a height at which a bead can be laid alone, mm.

@@ -527,7 +527,8 @@ fn lay_paths(
     gaps.extend(fills.fill_areas(regions, bridges, &mut parts));
     let fallbacks = fills.fill_thin_places(&walls.thin_outer, &outline, gaps, &mut parts);
     meta.warnings.extend(fallback_warning(&fallbacks, spec.index));
-    meta.findings.extend(findings.thin_walls(&outline, &parts));
+    meta.findings.extend(findings.thin_walls(&parts));
+    meta.findings.extend(findings.lost_walls(&walls.lost));
     set_seams(plan, spec, &mut parts);
     let ordered = order_layer(parts, &outline, spec.index, settings.seam.position);
     let ordered = match over_air {

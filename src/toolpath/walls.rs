@@ -53,6 +53,8 @@ pub struct Walls {
     pub thin_outer: PolygonSet,
     /// The like between inner walls.
     pub thin_inner: PolygonSet,
+    /// Places at the outline too thin for any bead, and hair-thin slivers along it.
+    pub lost: PolygonSet,
     /// What lies inside the innermost wall, up to the border of its bead's cell.
     pub inner: PolygonSet,
 }
@@ -62,6 +64,9 @@ const NARROWEST_STRIP: f64 = 0.1;
 
 /// Area under which a layer's thin places are not worth a look, mm2.
 const NO_THIN_PLACES: f64 = 0.01;
+
+/// The like for places too thin for any bead, mm2.
+const NOTHING_LOST: f64 = 0.1;
 
 /// The like for places where beads should be wider or narrower than usual, mm2.
 const NO_CLOSE_PLACES: f64 = 0.05;
@@ -131,9 +136,9 @@ pub fn lay_walls(outline: &PolygonSet, bead: Bead, count: u32) -> Walls {
         if walls.inner.area() - roomy.area() >= NO_CLOSE_PLACES {
             let close = walls.inner.difference(&roomy);
             let centre = without_thin(&lines, strips.narrowest / 2.0);
-            let thin = thin_places(&walls.inner, &close, &centre, to_centre);
+            let (thin, lost) = thin_places(&walls.inner, &close, &centre, to_centre);
             match depth {
-                0 => walls.thin_outer = thin,
+                0 => (walls.thin_outer, walls.lost) = (thin, lost),
                 _ => thin_inner.push(thin),
             }
             let fitted = fit::loops(centre, &close, FittedBead { bead, role, strips });
@@ -191,14 +196,23 @@ pub fn fill_narrow(area: &PolygonSet, role: Role, bead: Bead) -> Option<Walls> {
 /// Thickness up to which an area is filled with loops, in line distances.
 const NARROW: f64 = 3.0;
 
-/// What of `area` the walls along `centre` do not reach, without hair-thin slivers; all of it lies in
-/// `close`, and next to nothing elsewhere.
-fn thin_places(area: &PolygonSet, close: &PolygonSet, centre: &PolygonSet, to_centre: f64) -> PolygonSet {
+/// What of `area` the walls along `centre` do not reach: where a bead fits, and what is too thin for one.
+/// All of it lies in `close`, and next to nothing elsewhere.
+fn thin_places(
+    area: &PolygonSet,
+    close: &PolygonSet,
+    centre: &PolygonSet,
+    to_centre: f64,
+) -> (PolygonSet, PolygonSet) {
     let reached = centre.offset(to_centre, Join::WALL);
     if area.area() - reached.area() < NO_THIN_PLACES {
-        return PolygonSet::EMPTY;
+        return (PolygonSet::EMPTY, PolygonSet::EMPTY);
     }
-    close.difference(&reached).opened(NARROWEST_STRIP / 2.0, Join::WALL)
+    let left = close.difference(&reached);
+    let thin = left.opened(NARROWEST_STRIP / 2.0, Join::WALL);
+    let is_lost = left.area() - thin.area() >= NOTHING_LOST;
+    let lost = if is_lost { left.difference(&thin) } else { PolygonSet::EMPTY };
+    (thin, lost)
 }
 
 #[cfg(test)]

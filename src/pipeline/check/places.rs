@@ -21,8 +21,9 @@ const NARROW_SHARE: f64 = 0.95;
 /// Narrow beads shorter than this, in line widths, are tips and corners and no walls.
 const WALL_LENGTH: f64 = 10.0;
 
-/// Layers without a single bead are told from this area on, mm2.
-const LOST_AREA: f64 = 1.0;
+/// Places without a bead are walls from this mean thickness on, mm; below it they are the hair that is left
+/// between an outline and its beads.
+const LOST_THICKNESS: f64 = 0.02;
 
 /// Lines that lie in the air side by side before an overhang is told: ceilings of letters and slots a
 /// millimetre deep come out well enough.
@@ -39,7 +40,7 @@ const LONG_BRIDGE: f64 = 30.0;
 pub(super) enum Fault {
     /// A wall thinner than a line; the size is how much it lacks, mm.
     ThinWall,
-    /// A layer too thin for any bead; the size is its area, mm2.
+    /// A wall too thin for any bead; the size is its length, mm.
     LostWall,
     /// Lines in the air without supports; the size is their area, mm2.
     Overhang,
@@ -71,18 +72,13 @@ pub(in super::super) struct Findings<'a> {
 }
 
 impl Findings<'_> {
-    /// Walls of one bead that is narrower than a line, or of none at all. `outline` is the layer's.
-    pub(in super::super) fn thin_walls(self, outline: &PolygonSet, parts: &LayerParts) -> Option<Finding> {
+    /// Walls of one bead that is narrower than a line.
+    pub(in super::super) fn thin_walls(self, parts: &LayerParts) -> Option<Finding> {
         if self.layer == 0 {
             // Its lines are of another width, and its outline is drawn in.
             return None;
         }
-        let mut beads = parts.fills.iter().filter(|path| path.role == Role::OuterWall).peekable();
-        if parts.walls.is_empty() && beads.peek().is_none() {
-            let area = outline.area();
-            let lost = if area >= LOST_AREA { largest(outline) } else { None };
-            return lost.map(|(at, _)| self.finding(Fault::LostWall, at, area));
-        }
+        let beads = parts.fills.iter().filter(|path| path.role == Role::OuterWall);
         let width = self.settings.walls.width;
         let narrow = |path: &Path| {
             let stretch = NarrowStretch::of(path, NARROW_SHARE * width);
@@ -90,6 +86,21 @@ impl Findings<'_> {
             is_wall.then(|| self.finding(Fault::ThinWall, stretch.at, width - stretch.mean_width()))
         };
         beads.filter_map(narrow).max_by(|a, b| a.size.total_cmp(&b.size))
+    }
+
+    /// The longest wall without a bead among the places too thin for one.
+    pub(in super::super) fn lost_walls(self, lost: &PolygonSet) -> Option<Finding> {
+        if self.layer == 0 || lost.is_empty() {
+            return None;
+        }
+        let wall = |island: Polygon| {
+            let length = island.clone().into_set().length() / 2.0;
+            let is_wall =
+                length >= WALL_LENGTH * self.settings.walls.width && island.area() >= LOST_THICKNESS * length;
+            let at = inner_point(&island).filter(|_| is_wall)?;
+            Some(self.finding(Fault::LostWall, at, length))
+        };
+        lost.islands().into_iter().filter_map(wall).max_by(|a, b| a.size.total_cmp(&b.size))
     }
 
     /// Air below that is more than [`LINES_IN_AIR`] wide and not spanned by a bridge, and bridges that
@@ -205,7 +216,7 @@ fn warning_of(kind: &[Finding], settings: &Settings) -> Option<Warning> {
             tell("thin_wall", text).fixed_by("walls.horizontal_expansion", thicker(worst.size, settings))
         }
         Fault::LostWall => {
-            let text = "the part is too thin for any line here: the layer stays empty".to_owned();
+            let text = "a wall is too thin for any line here: it is left out".to_owned();
             tell("lost_wall", text).fixed_by("walls.horizontal_expansion", thicker(width, settings))
         }
         Fault::Overhang => {
