@@ -79,7 +79,9 @@ usage: foothold slice MODEL... [-o OUT.gcode] [--printer ID] [--material ID] [--
        foothold profiles
        foothold import PROFILE [-o SETTINGS.json]
 
-  slice      writes G-code; several models are arranged on the bed
+  slice      writes G-code; several models are arranged on the bed; what may not print well is told with its
+             place and with what mends it. Without -o the file gets a name of its own, such as
+             cube_0.2mm_PLA_1h2m3s.gcode, in this folder
   inspect    counts triangles, shells and faults, and measures the model; of a G-code file of any slicer
              its layers, time, filament and lengths by role
   place      the models as they stand on the bed, scaled and turned, in one STL
@@ -87,9 +89,10 @@ usage: foothold slice MODEL... [-o OUT.gcode] [--printer ID] [--material ID] [--
   orient     which way up needs the least support, with the figures of each direction
   compare    skirt, brim, raft and teeth side by side
   settings   all settings, or their JSON Schema
-  profiles   the printers, materials and qualities that --printer, --material and --quality name
+  profiles   the printers, materials and qualities that --printer, --material and --quality name; without
+             --printer it is a Marlin printer of 220 x 220 x 250 mm with PLA
   import     a profile of PrusaSlicer (.ini, .gcode), OrcaSlicer (.json) or Cura (.curaprofile) as settings,
-             and what became of each of its values
+             and what became of each of its values; slice takes the file with --settings
 
   -o, --output     file to write, whole or not at all; - is standard output
   --printer, --material, --quality
@@ -101,6 +104,9 @@ usage: foothold slice MODEL... [-o OUT.gcode] [--printer ID] [--material ID] [--
   --scale          every model F times as large as in its file (25.4 for inches)
   --workers        engines that work at the same time (default: processors, at most 4)
   --help, --version
+
+  foothold slice part.stl --printer ender3 --material petg -o part.gcode
+  foothold slice part.stl --set layers.height=0.3 --set support.method=plates
 
 exit: 0 done; 1 a bug of ours; 2 wrong use or settings; 3 a model that can't be read or used;
       4 it does not fit the printer
@@ -272,7 +278,8 @@ function parsed<T extends ParseArgsConfig>(config: T): ReturnType<typeof parseAr
     return parseArgs<T>(config);
   } catch (error) {
     const [first = ''] = (error instanceof Error ? error.message : String(error)).split(/\. |\n/);
-    throw new UsageError(first.charAt(0).toLowerCase() + first.slice(1));
+    const hint = first.startsWith('Unknown option') ? ': settings are given as --set path=value, see --help' : '';
+    throw new UsageError(first.charAt(0).toLowerCase() + first.slice(1) + hint);
   }
 }
 

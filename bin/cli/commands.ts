@@ -15,6 +15,7 @@ import { gcodeInWords, inWords } from './inspection.ts';
 import { nodeLanes } from './lanes.ts';
 import { Output } from './output.ts';
 import { progressBar } from './progress.ts';
+import { remarkLines } from './remarks.ts';
 import { adhesionTable, directionTable, importTable, profileTable } from './tables.ts';
 
 type Of<K extends Command['kind']> = Extract<Command, { kind: K }>;
@@ -23,7 +24,7 @@ export async function slice({ models, out, settings, own, report, workers, scale
   const sources = models.map(openModel);
   const outputs = [out, report].filter((it) => it !== undefined);
   refuseClash(outputs, models);
-  await withPool(workers, async (pool) => {
+  const told = await withPool(workers, async (pool) => {
     const all = await resolve(pool, settings);
     const [gcodeOut, reportOut] = [maybe(out), maybe(report)];
     const progress = progressBar(process.stderr);
@@ -38,10 +39,13 @@ export async function slice({ models, out, settings, own, report, workers, scale
       reportOut?.write([gcode.joined.report, '\n']);
       target.finish();
       reportOut?.finish();
+      const file = out === undefined && process.stderr.isTTY ? [`wrote ${gcode.joined.fileName}`] : [];
+      return [...remarkLines(gcode.joined.report), ...file];
     } finally {
       progress.clear();
     }
   });
+  process.stderr.write(told.map((line) => `foothold: ${line}\n`).join(''));
 }
 
 export async function place({ models, out, settings, scale }: Of<'place'>): Promise<void> {

@@ -1,4 +1,4 @@
-// The command line: words in; files, one line on stderr and an exit code out.
+// The command line: words in; files, an error in one line or remarks on stderr, and an exit code out.
 import { constants } from 'node:os';
 import { type Command, help, parseCommand } from './args.ts';
 import * as commands from './commands.ts';

@@ -12,7 +12,7 @@ import path from 'node:path';
 import { Ajv2020 } from 'ajv/dist/2020.js';
 import { afterAll, describe, expect, test } from 'vitest';
 import { foothold, root, temporaryFolder } from './command.ts';
-import { binaryStl, box, bunny } from './shapes.ts';
+import { binaryStl, box, bunny, raised } from './shapes.ts';
 
 const { folder, remove } = temporaryFolder();
 afterAll(remove);
@@ -103,6 +103,25 @@ describe('slice', () => {
     const ended = await foothold(['slice', '../cube.stl', '--set', 'layers.height=0.3'], file('named'));
     expect(ended.code).toBe(0);
     expect(readdirSync(file('named'))).toEqual([expect.stringMatching(/^cube_0\.3mm_\w+_.*\d+[sm]\.gcode$/)]);
+  });
+
+  test('what may not print well is told with its place and what mends it', async () => {
+    const cold = 'slice cube.stl -o cold.gcode --set filament.nozzle_temp=150';
+    const ended = await run(cold);
+    expect(ended).toMatchObject({
+      code: 0,
+      err:
+        'foothold: warning: filament.nozzle_temp: 150 degrees C do not suit PLA: 190 to 230 do; ' +
+        'mended by --set filament.nozzle_temp=190\n',
+    });
+    expect(await run(`${cold} --set filament.nozzle_temp=190`)).toMatchObject({ code: 0, err: '' });
+    // A plate on a foot: 200 mm2 of it hang in the air.
+    write('balcony.stl', binaryStl([...box(10, 10, 5), ...raised(box(30, 10, 2), 5)]));
+    const { err } = await run('slice balcony.stl -o balcony.gcode');
+    expect(err).toMatch(
+      /^foothold: warning: 200 mm2 hang in the air here without supports \(layer 25 at [\d.]+, [\d.]+\); /,
+    );
+    expect(err).toMatch(/; mended by --set support\.method=plates\n$/);
   });
 
   test('settings files and single settings; the later one wins', async () => {

@@ -16,6 +16,12 @@ export function binaryStl(triangles: readonly Triangle[], count = triangles.leng
   return bytes;
 }
 
+/** The same so much higher. */
+export function raised(triangles: readonly Triangle[], by: number): Triangle[] {
+  const up = ([x, y, z]: Point): Point => [x, y, z + by];
+  return triangles.map(([a, b, c]) => [up(a), up(b), up(c)]);
+}
+
 /** A box with a corner at the origin. */
 export function box(width: number, depth: number, height: number): Triangle[] {
   const corner = (k: number): Point => [k & 1 ? width : 0, k & 2 ? depth : 0, k & 4 ? height : 0];
