@@ -25,14 +25,29 @@ export async function build() {
   await npmPackages();
   await wasmTargetInstalled();
   const bindgen = await wasmBindgen();
-  await schemas();
-  await types();
-  for (const module of modules) await bound(bindgen, module);
+  const { engine, files, link } = modules;
+  // The end of an optimised build is one thread's work, so that there is room for another beside it.
+  await together(
+    async () => {
+      await schemas();
+      await types();
+      await bound(bindgen, files);
+    },
+    () => bound(bindgen, engine),
+    () => bound(bindgen, link),
+  );
   await sample();
   await page();
   await element();
   await node();
   await declarations();
+}
+
+/** Does all at the same time and waits until all have ended; throws what the first of them threw. */
+async function together(...works) {
+  const ends = await Promise.allSettled(works.map((work) => work()));
+  const failed = ends.find((it) => it.status === 'rejected');
+  if (failed !== undefined) throw failed.reason;
 }
 
 function schemas() {
@@ -65,18 +80,18 @@ function types() {
 }
 
 /** The wasm modules: where each is written, how it is called there, and what cargo builds for it. */
-const modules = [
-  { folder: 'engine', name: 'foothold', cargo: ['-p', 'foothold'], crate: 'foothold', inputs: rust },
-  {
-    // For files of other programs.
+const modules = {
+  engine: { folder: 'engine', name: 'foothold', cargo: ['-p', 'foothold'], crate: 'foothold', inputs: rust },
+  // For files of other programs.
+  files: {
     folder: 'files',
     name: 'foothold_files',
     cargo: ['-p', 'foothold-files'],
     crate: 'foothold_files',
     inputs: ['crates', 'schema', 'Cargo.toml', 'Cargo.lock', 'rust-toolchain.toml', '.cargo'],
   },
-  {
-    // The serial protocol.
+  // The serial protocol.
+  link: {
     folder: 'link',
     name: 'foothold_link',
     // In a folder of its own: cargo calls both builds of the crate by the same name.
@@ -85,7 +100,7 @@ const modules = [
     crate: 'foothold',
     inputs: ['src/lib.rs', 'src/printer', 'src/wasm', 'Cargo.toml', 'Cargo.lock', 'rust-toolchain.toml', '.cargo'],
   },
-];
+};
 
 /** Builds a module as wasm, with JavaScript around it, into an empty folder. */
 function bound(bindgen, { folder, name, cargo, crate, inputs, target = targetFolder() }) {
