@@ -1,7 +1,7 @@
 //! How a stage declares its options: once, with unit, range and help.
 //!
-//! [`options!`](crate::options!) writes the struct, its `Default`, its serde form (unknown keys are errors), its
-//! range check and, with the feature `schema`, its JSON Schema, from one list of rows:
+//! [`options!`](crate::options!) writes the struct, its `Default`, how its values are read from JSON (unknown keys
+//! are errors), written and checked and, with the feature `schema`, its JSON Schema, from one list of rows:
 //!
 //! ```
 //! foothold::options! {
@@ -14,15 +14,48 @@
 //!     }
 //! }
 //! let bad = WallOptions { width: 9.0, ..WallOptions::default() };
-//! let found = foothold::options::Checked::check(&bad, "walls").unwrap_err();
+//! let found = foothold::options::Setting::check(&bad, "walls").unwrap_err();
 //! assert_eq!(found.to_string(), "walls.width: 9 is outside 0.1 to 2 mm");
 //! ```
 //!
 //! A row is `name: Type = default, "label", "unit", low..=high;` for numbers and arrays of numbers,
 //! `name: Type = default, "label";` for words, switches and text, and `name: group Type;` for a
-//! nested options struct.
+//! nested options struct. [`words!`](crate::words!) declares the words that a setting chooses from.
+//!
+//! The rows become a table that a few loops walk ([`Group`]): a deserializer is compiled anew for every struct,
+//! which made up a tenth of the engine.
 
 use std::fmt;
+
+use serde_json::{Map, Value};
+
+/// Why a value cannot be a setting's.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NotASetting {
+    /// No setting has this path.
+    Unknown {
+        /// The path as given.
+        path: String,
+    },
+    /// The value has the wrong type or is not among the choices.
+    Wrong {
+        /// The setting's path, with the place in a list.
+        path: String,
+        /// What is wrong with it.
+        cause: String,
+    },
+}
+
+impl fmt::Display for NotASetting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NotASetting::Unknown { path } => write!(f, "{path}: there is no such setting"),
+            NotASetting::Wrong { path, cause } => write!(f, "{path}: {cause}"),
+        }
+    }
+}
+
+impl std::error::Error for NotASetting {}
 
 /// A value outside its range; the message names the setting's path.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,59 +82,453 @@ impl fmt::Display for OutOfRange {
 
 impl std::error::Error for OutOfRange {}
 
-/// An options struct whose values can be checked against their declared ranges.
-pub trait Checked {
-    /// The first value outside its range, if any. `path` is the dotted path of this struct.
-    fn check(&self, path: &str) -> Result<(), OutOfRange>;
-}
+/// What a setting can hold: a number, a word, a list, or a group of settings.
+pub trait Setting {
+    /// Takes the value of `json`; a group takes those that are there. `path` is the setting's dotted path.
+    fn read(&mut self, json: &Value, path: &str) -> Result<(), NotASetting>;
 
-/// The numbers inside a value, so that one rule checks scalars and arrays.
-pub trait Numbers {
-    /// Every number of the value, as f64.
-    fn numbers(&self) -> Vec<f64>;
-}
+    /// The value as JSON; [`Setting::read`] takes it.
+    fn json(&self) -> Value;
 
-impl Numbers for f64 {
+    /// Appends the value, bit by bit, to `bytes`; JSON's numbers are not read exactly.
+    fn save(&self, bytes: &mut Vec<u8>);
+
+    /// Takes what [`Setting::save`] appended off the front of `bytes`; `None` if it is not there.
+    fn load(&mut self, bytes: &mut &[u8]) -> Option<()>;
+
+    /// The numbers that have to keep to the setting's range.
     fn numbers(&self) -> Vec<f64> {
-        vec![*self]
+        Vec::new()
+    }
+
+    /// The first value of a group that is outside its range. `path` is the group's dotted path.
+    fn check(&self, path: &str) -> Result<(), OutOfRange> {
+        let _ = path;
+        Ok(())
     }
 }
 
-impl Numbers for u32 {
-    fn numbers(&self) -> Vec<f64> {
-        vec![f64::from(*self)]
+/// A setting that can be an item of a list, which begins as `blank`.
+pub trait Item: Setting {
+    /// A value to read into.
+    fn blank() -> Self;
+}
+
+/// A row of an options struct.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// Name of the field.
+    pub name: &'static str,
+    /// Unit of its numbers.
+    pub unit: &'static str,
+    /// Smallest and largest number allowed.
+    pub range: Option<[f64; 2]>,
+}
+
+/// An options struct as a table: as many values as [`Group::ROWS`].
+pub trait Group {
+    /// Its rows, in the order in which they were declared.
+    const ROWS: &'static [Row];
+
+    /// The value of each row.
+    fn values(&self) -> Vec<&dyn Setting>;
+
+    /// The value of each row.
+    fn values_mut(&mut self) -> Vec<&mut dyn Setting>;
+}
+
+impl<G: Group + Default> Item for G {
+    fn blank() -> G {
+        G::default()
     }
 }
 
-impl<const N: usize> Numbers for [f64; N] {
-    fn numbers(&self) -> Vec<f64> {
-        self.to_vec()
+impl<G: Group> Setting for G {
+    fn read(&mut self, json: &Value, path: &str) -> Result<(), NotASetting> {
+        read_group(G::ROWS, self.values_mut(), json, path)
+    }
+
+    fn json(&self) -> Value {
+        group_json(G::ROWS, self.values())
+    }
+
+    fn save(&self, bytes: &mut Vec<u8>) {
+        save_group(self.values(), bytes);
+    }
+
+    fn load(&mut self, bytes: &mut &[u8]) -> Option<()> {
+        load_group(self.values_mut(), bytes)
+    }
+
+    fn check(&self, path: &str) -> Result<(), OutOfRange> {
+        check_group(G::ROWS, self.values(), path)
     }
 }
 
-/// Checks one value against its range; NaN is outside every range.
-pub fn check_range(
-    value: &impl Numbers,
+fn read_group(
+    rows: &[Row],
+    values: Vec<&mut dyn Setting>,
+    json: &Value,
     path: &str,
-    name: &str,
-    unit: &'static str,
-    range: std::ops::RangeInclusive<f64>,
-) -> Result<(), OutOfRange> {
-    match value.numbers().into_iter().find(|v| !range.contains(v)) {
+) -> Result<(), NotASetting> {
+    let Value::Object(found) = json else { return wrong(path, "a group of settings", json) };
+    let is_row = |key: &&String| rows.iter().any(|row| row.name == key.as_str());
+    if let Some(key) = found.keys().find(|key| !is_row(key)) {
+        return Err(NotASetting::Unknown { path: join_path(path, key) });
+    }
+    rows.iter().zip(values).try_for_each(|(row, value)| match found.get(row.name) {
+        Some(json) => value.read(json, &join_path(path, row.name)),
         None => Ok(()),
-        Some(v) => Err(OutOfRange {
-            path: join_path(path, name),
-            found: v.to_string(),
-            low: *range.start(),
-            high: *range.end(),
-            unit,
-        }),
+    })
+}
+
+fn group_json(rows: &[Row], values: Vec<&dyn Setting>) -> Value {
+    let mut group = Map::new();
+    for (row, value) in rows.iter().zip(values) {
+        group.insert(row.name.to_owned(), value.json());
+    }
+    Value::Object(group)
+}
+
+fn save_group(values: Vec<&dyn Setting>, bytes: &mut Vec<u8>) {
+    values.into_iter().for_each(|value| value.save(bytes));
+}
+
+fn load_group(values: Vec<&mut dyn Setting>, bytes: &mut &[u8]) -> Option<()> {
+    values.into_iter().try_for_each(|value| value.load(bytes))
+}
+
+fn check_group(rows: &[Row], values: Vec<&dyn Setting>, path: &str) -> Result<(), OutOfRange> {
+    rows.iter().zip(values).try_for_each(|(row, value)| {
+        let path = join_path(path, row.name);
+        match row.range {
+            Some(range) => check_range(&value.numbers(), &path, row.unit, range),
+            None => value.check(&path),
+        }
+    })
+}
+
+/// Checks numbers against a range; NaN is outside every range. `path` is the setting's.
+pub fn check_range(
+    numbers: &[f64],
+    path: &str,
+    unit: &'static str,
+    [low, high]: [f64; 2],
+) -> Result<(), OutOfRange> {
+    match numbers.iter().find(|v| !(low..=high).contains(*v)) {
+        None => Ok(()),
+        Some(v) => Err(OutOfRange { path: path.to_owned(), found: v.to_string(), low, high, unit }),
     }
 }
 
 /// `path.name`, or `name` at the root.
 pub fn join_path(path: &str, name: &str) -> String {
     if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
+}
+
+fn wrong<T>(path: &str, expected: &str, found: &Value) -> Result<T, NotASetting> {
+    let cause = format!("expected {expected}, found {found}");
+    Err(NotASetting::Wrong { path: path.to_owned(), cause })
+}
+
+/// Takes `N` bytes off the front.
+fn take<const N: usize>(bytes: &mut &[u8]) -> Option<[u8; N]> {
+    let (taken, rest) = bytes.split_first_chunk()?;
+    *bytes = rest;
+    Some(*taken)
+}
+
+/// Takes a length off the front.
+fn take_length(bytes: &mut &[u8]) -> Option<usize> {
+    Some(u32::from_le_bytes(take(bytes)?) as usize)
+}
+
+fn save_length(length: usize, bytes: &mut Vec<u8>) {
+    bytes.extend((length as u32).to_le_bytes());
+}
+
+impl Setting for f64 {
+    fn read(&mut self, json: &Value, path: &str) -> Result<(), NotASetting> {
+        *self = json.as_f64().map_or_else(|| wrong(path, "a number", json), Ok)?;
+        Ok(())
+    }
+
+    fn json(&self) -> Value {
+        Value::from(*self)
+    }
+
+    fn save(&self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_le_bytes());
+    }
+
+    fn load(&mut self, bytes: &mut &[u8]) -> Option<()> {
+        *self = f64::from_le_bytes(take(bytes)?);
+        Some(())
+    }
+
+    fn numbers(&self) -> Vec<f64> {
+        vec![*self]
+    }
+}
+
+impl Item for f64 {
+    fn blank() -> f64 {
+        0.0
+    }
+}
+
+impl Setting for u32 {
+    fn read(&mut self, json: &Value, path: &str) -> Result<(), NotASetting> {
+        let found = json.as_u64().and_then(|n| u32::try_from(n).ok());
+        *self = found.map_or_else(|| wrong(path, "a whole number from 0 up", json), Ok)?;
+        Ok(())
+    }
+
+    fn json(&self) -> Value {
+        Value::from(*self)
+    }
+
+    fn save(&self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_le_bytes());
+    }
+
+    fn load(&mut self, bytes: &mut &[u8]) -> Option<()> {
+        *self = u32::from_le_bytes(take(bytes)?);
+        Some(())
+    }
+
+    fn numbers(&self) -> Vec<f64> {
+        vec![f64::from(*self)]
+    }
+}
+
+impl Item for u32 {
+    fn blank() -> u32 {
+        0
+    }
+}
+
+impl Setting for bool {
+    fn read(&mut self, json: &Value, path: &str) -> Result<(), NotASetting> {
+        *self = json.as_bool().map_or_else(|| wrong(path, "true or false", json), Ok)?;
+        Ok(())
+    }
+
+    fn json(&self) -> Value {
+        Value::from(*self)
+    }
+
+    fn save(&self, bytes: &mut Vec<u8>) {
+        bytes.push(u8::from(*self));
+    }
+
+    fn load(&mut self, bytes: &mut &[u8]) -> Option<()> {
+        *self = take(bytes)? == [1];
+        Some(())
+    }
+}
+
+impl Setting for String {
+    fn read(&mut self, json: &Value, path: &str) -> Result<(), NotASetting> {
+        *self = json.as_str().map_or_else(|| wrong(path, "a text", json), Ok)?.to_owned();
+        Ok(())
+    }
+
+    fn json(&self) -> Value {
+        Value::from(self.as_str())
+    }
+
+    fn save(&self, bytes: &mut Vec<u8>) {
+        save_length(self.len(), bytes);
+        bytes.extend(self.bytes());
+    }
+
+    fn load(&mut self, bytes: &mut &[u8]) -> Option<()> {
+        let length = take_length(bytes)?;
+        let (text, rest) = bytes.split_at_checked(length)?;
+        *self = str::from_utf8(text).ok()?.to_owned();
+        *bytes = rest;
+        Some(())
+    }
+}
+
+/// `null` for nothing.
+impl<T: Item> Setting for Option<T> {
+    fn read(&mut self, json: &Value, path: &str) -> Result<(), NotASetting> {
+        *self = None;
+        if json.is_null() { Ok(()) } else { self.insert(T::blank()).read(json, path) }
+    }
+
+    fn json(&self) -> Value {
+        self.as_ref().map_or(Value::Null, Setting::json)
+    }
+
+    fn save(&self, bytes: &mut Vec<u8>) {
+        self.is_some().save(bytes);
+        self.iter().for_each(|value| value.save(bytes));
+    }
+
+    fn load(&mut self, bytes: &mut &[u8]) -> Option<()> {
+        *self = None;
+        if take(bytes)? == [1] { self.insert(T::blank()).load(bytes) } else { Some(()) }
+    }
+}
+
+impl<const N: usize> Setting for [f64; N] {
+    fn read(&mut self, json: &Value, path: &str) -> Result<(), NotASetting> {
+        match json.as_array() {
+            Some(items) if items.len() == N => read_items(self, items, path),
+            _ => wrong(path, &format!("{N} numbers"), json),
+        }
+    }
+
+    fn json(&self) -> Value {
+        self.iter().map(Setting::json).collect()
+    }
+
+    fn save(&self, bytes: &mut Vec<u8>) {
+        self.iter().for_each(|number| number.save(bytes));
+    }
+
+    fn load(&mut self, bytes: &mut &[u8]) -> Option<()> {
+        self.iter_mut().try_for_each(|number| number.load(bytes))
+    }
+
+    fn numbers(&self) -> Vec<f64> {
+        self.to_vec()
+    }
+}
+
+impl<const N: usize> Item for [f64; N] {
+    fn blank() -> [f64; N] {
+        [0.0; N]
+    }
+}
+
+impl<T: Item> Setting for Vec<T> {
+    fn read(&mut self, json: &Value, path: &str) -> Result<(), NotASetting> {
+        let Some(items) = json.as_array() else { return wrong(path, "a list", json) };
+        self.clear();
+        self.resize_with(items.len(), T::blank);
+        read_items(self, items, path)
+    }
+
+    fn json(&self) -> Value {
+        self.iter().map(Setting::json).collect()
+    }
+
+    fn save(&self, bytes: &mut Vec<u8>) {
+        save_length(self.len(), bytes);
+        self.iter().for_each(|item| item.save(bytes));
+    }
+
+    fn load(&mut self, bytes: &mut &[u8]) -> Option<()> {
+        self.clear();
+        for _ in 0..take_length(bytes)? {
+            let mut item = T::blank();
+            item.load(bytes)?;
+            self.push(item);
+        }
+        Some(())
+    }
+}
+
+fn read_items<T: Setting>(items: &mut [T], found: &[Value], path: &str) -> Result<(), NotASetting> {
+    let mut places = (0..).map(|i| format!("{path}[{i}]"));
+    let read = |(item, json): (&mut T, &Value)| item.read(json, &places.next().unwrap_or_default());
+    items.iter_mut().zip(found).try_for_each(read)
+}
+
+/// The place in `words` of the word in `json`.
+pub fn read_word(words: &[&str], json: &Value, path: &str) -> Result<usize, NotASetting> {
+    let found = words.iter().position(|word| Some(*word) == json.as_str());
+    found.map_or_else(|| wrong(path, &format!("one of {}", words.join(", ")), json), Ok)
+}
+
+/// Declares the words that a setting chooses from, an enum with a word for each variant:
+///
+/// ```
+/// foothold::words! {
+///     /// Which side up.
+///     pub enum Side {
+///         /// As drawn.
+///         #[default]
+///         Top = "top",
+///         /// Upside down.
+///         Bottom = "bottom",
+///     }
+/// }
+/// assert_eq!(Side::Bottom.name(), "bottom");
+/// ```
+#[macro_export]
+macro_rules! words {
+    ($(#[$meta:meta])* pub enum $Name:ident { $( $(#[$doc:meta])* $Variant:ident = $word:literal, )* }) => {
+        $(#[$meta])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, serde::Serialize, serde::Deserialize)]
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+        pub enum $Name { $( $(#[$doc])* #[serde(rename = $word)] $Variant, )* }
+
+        impl $Name {
+            /// All of them, in the order in which they were declared.
+            pub const ALL: [$Name; $Name::WORDS.len()] = [$( $Name::$Variant ),*];
+            /// The word of each.
+            const WORDS: &'static [&'static str] = &[$( $word ),*];
+
+            /// The word of settings and reports.
+            pub const fn name(self) -> &'static str {
+                $Name::WORDS[self as usize]
+            }
+        }
+
+        impl $crate::options::Setting for $Name {
+            fn read(
+                &mut self,
+                json: &serde_json::Value,
+                path: &str,
+            ) -> Result<(), $crate::options::NotASetting> {
+                *self = $Name::ALL[$crate::options::read_word($Name::WORDS, json, path)?];
+                Ok(())
+            }
+
+            fn json(&self) -> serde_json::Value {
+                serde_json::Value::from(self.name())
+            }
+
+            fn save(&self, bytes: &mut Vec<u8>) {
+                bytes.push(*self as u8);
+            }
+
+            fn load(&mut self, bytes: &mut &[u8]) -> Option<()> {
+                let (place, rest) = bytes.split_first()?;
+                *self = *$Name::ALL.get(usize::from(*place))?;
+                *bytes = rest;
+                Some(())
+            }
+        }
+    };
+}
+
+/// Sent from engine to engine as [`Setting::save`] writes it.
+pub mod saved {
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use super::Item;
+
+    /// For `#[serde(with = "saved")]`.
+    pub fn serialize<T: Item, S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut bytes = Vec::new();
+        value.save(&mut bytes);
+        bytes.serialize(serializer)
+    }
+
+    /// For `#[serde(with = "saved")]`.
+    pub fn deserialize<'de, T: Item, D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
+        let bytes = Vec::<u8>::deserialize(deserializer)?;
+        let (mut value, mut rest) = (T::blank(), bytes.as_slice());
+        let whole = value.load(&mut rest).filter(|()| rest.is_empty());
+        whole.map(|()| value).ok_or_else(|| D::Error::custom("settings are cut off"))
+    }
 }
 
 /// Declares an options struct; see the [module](crate::options) for the form of a row.
@@ -111,39 +538,39 @@ macro_rules! options {
         $crate::options! { @rows [$(#[$meta])*] $Name [] [] [] $($rows)* }
     };
     // A number or an array of numbers, with unit and range.
-    (@rows $m:tt $Name:ident [$($fields:tt)*] [$($defaults:tt)*] [$($checks:tt)*]
+    (@rows $m:tt $Name:ident [$($fields:tt)*] [$($defaults:tt)*] [$($table:tt)*]
         $(#[$doc:meta])* $field:ident : $Type:ty = $default:expr, $label:literal, $unit:literal, $low:literal ..= $high:literal ; $($rest:tt)*) => {
         $crate::options! { @rows $m $Name
             [$($fields)* $(#[$doc])*
                 #[cfg_attr(feature = "schema", schemars(title = $label, range(min = $low, max = $high), extend("x-unit" = $unit)))]
                 pub $field: $Type,]
             [$($defaults)* $field: $default,]
-            [$($checks)* ($field, $unit, $low ..= $high)]
+            [$($table)* ($field, $unit, Some([$low as f64, $high as f64]))]
             $($rest)* }
     };
     // A word, a switch or a text.
-    (@rows $m:tt $Name:ident [$($fields:tt)*] [$($defaults:tt)*] $checks:tt
+    (@rows $m:tt $Name:ident [$($fields:tt)*] [$($defaults:tt)*] [$($table:tt)*]
         $(#[$doc:meta])* $field:ident : $Type:ty = $default:expr, $label:literal ; $($rest:tt)*) => {
         $crate::options! { @rows $m $Name
             [$($fields)* $(#[$doc])* #[cfg_attr(feature = "schema", schemars(title = $label))] pub $field: $Type,]
             [$($defaults)* $field: $default,]
-            $checks
+            [$($table)* ($field, "", None)]
             $($rest)* }
     };
     // A nested options struct.
-    (@rows $m:tt $Name:ident [$($fields:tt)*] [$($defaults:tt)*] [$($checks:tt)*]
+    (@rows $m:tt $Name:ident [$($fields:tt)*] [$($defaults:tt)*] [$($table:tt)*]
         $(#[$doc:meta])* $field:ident : group $Type:ty ; $($rest:tt)*) => {
         $crate::options! { @rows $m $Name
             [$($fields)* $(#[$doc])* pub $field: $Type,]
             [$($defaults)* $field: <$Type>::default(),]
-            [$($checks)* ($field)]
+            [$($table)* ($field, "", None)]
             $($rest)* }
     };
-    (@rows [$($meta:tt)*] $Name:ident [$($fields:tt)*] [$($defaults:tt)*] [$($check:tt)*]) => {
+    (@rows [$($meta:tt)*] $Name:ident [$($fields:tt)*] [$($defaults:tt)*] [$(($field:ident, $unit:literal, $range:expr))*]) => {
         $($meta)*
-        #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
-        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-        #[serde(default, deny_unknown_fields)]
+        #[derive(Debug, Clone, PartialEq)]
+        #[cfg_attr(feature = "schema", derive(serde::Serialize, schemars::JsonSchema))]
+        #[cfg_attr(feature = "schema", schemars(default, deny_unknown_fields))]
         pub struct $Name { $($fields)* }
 
         impl Default for $Name {
@@ -152,18 +579,18 @@ macro_rules! options {
             }
         }
 
-        impl $crate::options::Checked for $Name {
-            fn check(&self, path: &str) -> Result<(), $crate::options::OutOfRange> {
-                $( $crate::options!(@check self path $check); )*
-                let _ = path;
-                Ok(())
+        impl $crate::options::Group for $Name {
+            const ROWS: &'static [$crate::options::Row] = &[
+                $( $crate::options::Row { name: stringify!($field), unit: $unit, range: $range } ),*
+            ];
+
+            fn values(&self) -> Vec<&dyn $crate::options::Setting> {
+                vec![$( &self.$field ),*]
+            }
+
+            fn values_mut(&mut self) -> Vec<&mut dyn $crate::options::Setting> {
+                vec![$( &mut self.$field ),*]
             }
         }
-    };
-    (@check $self:ident $path:ident ($field:ident, $unit:literal, $low:literal ..= $high:literal)) => {
-        $crate::options::check_range(&$self.$field, $path, stringify!($field), $unit, f64::from($low) ..= f64::from($high))?
-    };
-    (@check $self:ident $path:ident ($field:ident)) => {
-        $crate::options::Checked::check(&$self.$field, &$crate::options::join_path($path, stringify!($field)))?
     };
 }

@@ -166,7 +166,7 @@ fn the_papers_raft_is_two_layers_of_0_2_and_reaches_15_mm() {
 fn supports_on_the_bed_get_their_share() {
     let part = rectangle(60.0, 60.0, 30.0, 30.0);
     let supports = rectangle(120.0, 60.0, 20.0, 20.0);
-    for kind in AdhesionKind::ALL {
+    for kind in AdhesionKind::LAID {
         let first = first_layer(&part, &supports);
         let laid = lay_foundation(&first, &options(kind)).expect("default settings");
         let alone = lay(&part, &options(kind));
@@ -281,7 +281,7 @@ fn laid_speck() -> Foundation {
 fn at_the_beds_edge_every_kind_stays_on_the_bed() {
     let part = rectangle(0.0, 0.0, 40.0, 30.0).union(&rectangle(200.0, 180.0, 19.5, 39.0));
     let first = first_layer(&part, NONE);
-    for kind in AdhesionKind::ALL {
+    for kind in AdhesionKind::LAID {
         let laid = lay_foundation(&first, &options(kind)).expect("default settings");
         picture::draw(&format!("edge-{}", kind.name()), &part, &laid);
         let paths = laid.layers.iter().flatten().chain(laid.raft.iter().flat_map(|l| &l.paths));
@@ -296,7 +296,7 @@ fn at_the_beds_edge_every_kind_stays_on_the_bed() {
 #[test]
 fn an_outline_off_the_bed_is_told_with_its_place() {
     let part = rectangle(-5.0, 50.0, 40.0, 30.0);
-    for kind in AdhesionKind::ALL {
+    for kind in AdhesionKind::LAID {
         let laid = lay(&part, &options(kind));
         let warning = laid.warnings.iter().find(|w| w.code == WarningCode::OutlineOffBed).expect("told");
         assert!(warning.at.is_some_and(|p| p.x < 0.0));
@@ -308,7 +308,7 @@ fn an_outline_off_the_bed_is_told_with_its_place() {
 
 #[test]
 fn nothing_to_hold_is_nothing_to_lay() {
-    for kind in AdhesionKind::ALL {
+    for kind in AdhesionKind::LAID {
         let laid = lay(NONE, &options(kind));
         assert!(laid.layers.iter().all(Vec::is_empty) && laid.raft.is_empty() && laid.warnings.is_empty());
         assert_eq!(laid.lift, 0.0);
@@ -321,7 +321,7 @@ fn nothing_to_hold_is_nothing_to_lay() {
 fn the_same_layer_gives_the_same_paths() {
     let part = wave(dvec2(110.0, 110.0), 45.0, 6.0, 14.0, 4000);
     let first: FirstLayer = first_layer(&part, NONE);
-    for kind in AdhesionKind::ALL {
+    for kind in AdhesionKind::LAID {
         let once = lay_foundation(&first, &options(kind)).expect("laid");
         assert_eq!(once, lay_foundation(&first, &options(kind)).expect("laid"));
     }

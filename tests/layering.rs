@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-/// What every module but `printer` may name with `crate::`: the macro that declares options, sorting.
-const EVERYWHERE: &[&str] = &["options", "sort"];
+/// What every module but `printer` may name with `crate::`: the macros that declare options, sorting.
+const EVERYWHERE: &[&str] = &["options", "words", "sort"];
 
 /// The stages in the order in which data flows.
 const STAGES: &[&str] =

@@ -28,7 +28,7 @@ pub use teeth::{TeethDrawing, Tooth};
 
 use ground::Ground;
 
-use crate::options::{Checked, check_range};
+use crate::options::{Setting, check_range};
 use crate::polygon::PolygonSet;
 use crate::polygon::measure::Bounds;
 use crate::region::Path;
@@ -135,7 +135,7 @@ pub fn compare(first: &FirstLayer, options: &AdhesionOptions) -> Result<[Alterna
     let of = |kind| -> Result<Alternative, AdhesionError> {
         Ok(Alternative { kind, foundation: lay(first, &ground, kind, options)? })
     };
-    let [skirt, brim, raft, teeth] = AdhesionKind::ALL;
+    let [skirt, brim, raft, teeth] = AdhesionKind::LAID;
     Ok([of(skirt)?, of(brim)?, of(raft)?, of(teeth)?])
 }
 
@@ -143,9 +143,9 @@ pub fn compare(first: &FirstLayer, options: &AdhesionOptions) -> Result<[Alterna
 /// such that no path is broken.
 fn check(first: &FirstLayer, options: &AdhesionOptions) -> Result<(), AdhesionError> {
     options.check("adhesion")?;
-    check_range(&first.line_width, "first_layer", "line_width", "mm", 0.01..=10.0)?;
-    check_range(&first.height, "layers", "first_height", "mm", 0.001..=10.0)?;
-    check_range(&first.next_height, "layers", "height", "mm", 0.001..=10.0)?;
+    check_range(&[first.line_width], "first_layer.line_width", "mm", [0.01, 10.0])?;
+    check_range(&[first.height], "layers.first_height", "mm", [0.001, 10.0])?;
+    check_range(&[first.next_height], "layers.height", "mm", [0.001, 10.0])?;
     Ok(())
 }
 

@@ -1,66 +1,50 @@
 //! The settings under `adhesion`.
 
-use serde::{Deserialize, Serialize};
-
-/// What holds the part on the bed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum AdhesionKind {
-    /// Nothing but the part itself.
-    None,
-    /// Loops around everything that touch nothing: they fill the nozzle and show the level.
-    Skirt,
-    /// Loops that touch the outline.
-    Brim,
-    /// Layers below the part, with an air gap.
-    Raft,
-    /// A rail with teeth that bite into the outline and break off [Lv 2022].
-    #[default]
-    Teeth,
+crate::words! {
+    /// What holds the part on the bed.
+    pub enum AdhesionKind {
+        /// Nothing but the part itself.
+        None = "none",
+        /// Loops around everything that touch nothing: they fill the nozzle and show the level.
+        Skirt = "skirt",
+        /// Loops that touch the outline.
+        Brim = "brim",
+        /// Layers below the part, with an air gap.
+        Raft = "raft",
+        /// A rail with teeth that bite into the outline and break off [Lv 2022].
+        #[default]
+        Teeth = "teeth",
+    }
 }
 
 impl AdhesionKind {
     /// The kinds that lay something, cheapest hold first.
-    pub const ALL: [AdhesionKind; 4] =
+    pub const LAID: [AdhesionKind; 4] =
         [AdhesionKind::Skirt, AdhesionKind::Brim, AdhesionKind::Raft, AdhesionKind::Teeth];
+}
 
-    /// The word of settings and reports, such as `teeth`.
-    pub const fn name(self) -> &'static str {
-        match self {
-            AdhesionKind::None => "none",
-            AdhesionKind::Skirt => "skirt",
-            AdhesionKind::Brim => "brim",
-            AdhesionKind::Raft => "raft",
-            AdhesionKind::Teeth => "teeth",
-        }
+crate::words! {
+    /// Which outlines a brim touches.
+    pub enum BrimSide {
+        /// Around the part.
+        #[default]
+        Outer = "outer",
+        /// Inside its holes.
+        Inner = "inner",
+        /// Around the part and inside its holes.
+        Both = "both",
     }
 }
 
-/// Which outlines a brim touches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum BrimSide {
-    /// Around the part.
-    #[default]
-    Outer,
-    /// Inside its holes.
-    Inner,
-    /// Around the part and inside its holes.
-    Both,
-}
-
-/// Where teeth stand along the rail.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum Placement {
-    /// [Lv 2022] to the letter: each edge of the rail by itself. To learn from, not to print with.
-    PerEdge,
-    /// At equal arc length along smooth stretches, every tip at the same depth in the part.
-    #[default]
-    AlongContour,
+crate::words! {
+    /// Where teeth stand along the rail.
+    pub enum Placement {
+        /// [Lv 2022] to the letter: each edge of the rail by itself. To learn from, not to print with.
+        PerEdge = "per_edge",
+        /// At equal arc length along smooth stretches, every tip at the same depth in the part.
+        #[default]
+        AlongContour = "along_contour",
+    }
 }
 
 crate::options! {

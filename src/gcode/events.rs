@@ -9,33 +9,31 @@ pub(super) const PAUSE_LIFT: f64 = 5.0;
 /// Heights closer than this are the same, mm: sums of binary fractions.
 const SAME_HEIGHT: f64 = 1e-6;
 
-/// Something that happens before a layer.
-#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(default, deny_unknown_fields)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct LayerEvent {
-    /// Number of the layer, counted from 0 at the bed.
-    pub layer: Option<u32>,
-    /// Instead of a number: a height, mm; it happens before the first layer that reaches above it.
-    pub z: Option<f64>,
-    /// What happens.
-    pub kind: EventKind,
-    /// Lines of a custom event, with the start code's {placeholders}.
-    pub gcode: String,
+crate::options! {
+    /// Something that happens before a layer.
+    pub struct LayerEvent {
+        /// Number of the layer, counted from 0 at the bed.
+        layer: Option<u32> = None, "Layer";
+        /// Instead of a number: a height, mm; it happens before the first layer that reaches above it.
+        z: Option<f64> = None, "Height";
+        /// What happens.
+        kind: EventKind = EventKind::Pause, "What happens";
+        /// Lines of a custom event, with the start code's {placeholders}.
+        gcode: String = String::new(), "Lines";
+    }
 }
 
-/// What happens before a layer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum EventKind {
-    /// The printer waits until it is told to go on, such as for a nut to be laid in.
-    #[default]
-    Pause,
-    /// The firmware's own change of filament (M600).
-    FilamentChange,
-    /// Lines of one's own.
-    Custom,
+crate::words! {
+    /// What happens before a layer.
+    pub enum EventKind {
+        /// The printer waits until it is told to go on, such as for a nut to be laid in.
+        #[default]
+        Pause = "pause",
+        /// The firmware's own change of filament (M600).
+        FilamentChange = "filament_change",
+        /// Lines of one's own.
+        Custom = "custom",
+    }
 }
 
 impl LayerEvent {
@@ -57,7 +55,7 @@ impl LayerEvent {
 pub fn check_output(options: &GcodeOptions) -> Result<(), GcodeError> {
     let events = &options.output.events;
     let flavor = options.printer.flavor;
-    let firmware = format!("{flavor:?}").to_lowercase();
+    let firmware = flavor.name();
     for (i, event) in events.iter().enumerate() {
         let wrong = |cause: &str| GcodeError::Contradiction {
             setting: format!("gcode.events[{i}]"),

@@ -14,24 +14,23 @@
 //! - Bambu: the community's lists (github.com/rjduran/bambu-gcode-reference): M73, M106, M204 S, M400 U1
 //!   (waits for the user), M900 K, arcs.
 
-/// Firmware dialect.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum Flavor {
-    /// Marlin 1.1.9 and later, and what follows it.
-    #[default]
-    Marlin,
-    /// Klipper.
-    Klipper,
-    /// RepRapFirmware (Duet).
-    Reprap,
-    /// Prusa's own firmware.
-    Prusa,
-    /// Repetier-Firmware.
-    Repetier,
-    /// Bambu Lab's firmware.
-    Bambu,
+crate::words! {
+    /// Firmware dialect.
+    pub enum Flavor {
+        /// Marlin 1.1.9 and later, and what follows it.
+        #[default]
+        Marlin = "marlin",
+        /// Klipper.
+        Klipper = "klipper",
+        /// RepRapFirmware (Duet).
+        Reprap = "reprap",
+        /// Prusa's own firmware.
+        Prusa = "prusa",
+        /// Repetier-Firmware.
+        Repetier = "repetier",
+        /// Bambu Lab's firmware.
+        Bambu = "bambu",
+    }
 }
 
 /// How a firmware is told which object it prints, so that one can be given up and the rest go on.
@@ -87,10 +86,6 @@ const MARLIN: Dialect = Dialect {
 };
 
 impl Flavor {
-    /// All flavours.
-    pub const ALL: [Flavor; 6] =
-        [Flavor::Marlin, Flavor::Klipper, Flavor::Reprap, Flavor::Prusa, Flavor::Repetier, Flavor::Bambu];
-
     /// The flavour's own lines.
     pub(crate) const fn dialect(self) -> &'static Dialect {
         match self {

@@ -27,28 +27,26 @@ G1 X{park_x} Y{park_y} F6000 ; present the part
 M84 ; motors off
 ";
 
-/// Outline of a bed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum BedShape {
-    /// A rectangle of `bed_size`.
-    #[default]
-    Rectangle,
-    /// An ellipse with the diameters of `bed_size`: a circle on nearly every delta.
-    Round,
+crate::words! {
+    /// Outline of a bed.
+    pub enum BedShape {
+        /// A rectangle of `bed_size`.
+        #[default]
+        Rectangle = "rectangle",
+        /// An ellipse with the diameters of `bed_size`: a circle on nearly every delta.
+        Round = "round",
+    }
 }
 
-/// Where on the bed X0 Y0 is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum Origin {
-    /// The front left corner.
-    #[default]
-    Corner,
-    /// The middle, as on a delta.
-    Center,
+crate::words! {
+    /// Where on the bed X0 Y0 is.
+    pub enum Origin {
+        /// The front left corner.
+        #[default]
+        Corner = "corner",
+        /// The middle, as on a delta.
+        Center = "center",
+    }
 }
 
 crate::options! {
@@ -379,7 +377,7 @@ impl SpeedOptions {
 }
 
 /// All that this stage needs to know, put together by the pipeline.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct GcodeOptions {
     /// Settings `printer.*`.
     pub printer: PrinterOptions,

@@ -1,16 +1,15 @@
 //! Models on a plate printed together or one after another.
 
-/// In which order the models on a plate are printed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum Sequence {
-    /// All models grow together, layer by layer.
-    #[default]
-    ByLayer,
-    /// Each model is finished before the next one is begun, the lowest first. The head needs room
-    /// between them.
-    ByObject,
+crate::words! {
+    /// In which order the models on a plate are printed.
+    pub enum Sequence {
+        /// All models grow together, layer by layer.
+        #[default]
+        ByLayer = "by_layer",
+        /// Each model is finished before the next one is begun, the lowest first. The head needs room
+        /// between them.
+        ByObject = "by_object",
+    }
 }
 
 crate::options! {

@@ -9,11 +9,11 @@ use super::transform::{
 };
 use super::{Box3, Mesh, TransformError};
 use glam::{DMat4, DVec3, dvec3};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// A change to a placement.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Edit {
     /// Sets the lowest point on the bed and changes nothing else.
     Drop,
@@ -44,6 +44,22 @@ pub enum Edit {
         /// Index of the face's triangle.
         triangle: usize,
     },
+}
+
+impl Edit {
+    /// A change by its name in JSON and its numbers in the order of its fields; `None` if there is none such.
+    pub fn from_numbers(kind: &str, numbers: &[f64]) -> Option<Edit> {
+        let whole = |n: f64| (n >= 0.0 && n <= f64::from(u32::MAX) && n.fract() == 0.0).then_some(n as usize);
+        Some(match (kind, numbers) {
+            ("drop", []) => Edit::Drop,
+            ("turn", &[axis, angle_deg]) => Edit::Turn { axis: whole(axis)?, angle_deg },
+            ("scale", &[x, y, z]) => Edit::Scale { factors: [x, y, z] },
+            ("mirror", &[axis]) => Edit::Mirror { axis: whole(axis)? },
+            ("turn_up", &[x, y, z]) => Edit::TurnUp { up: [x, y, z] },
+            ("lay_flat", &[triangle]) => Edit::LayFlat { triangle: whole(triangle)? },
+            _ => return None,
+        })
+    }
 }
 
 /// The placement after `edit`. Refuses an axis or a triangle that does not exist, and what
@@ -188,6 +204,17 @@ mod tests {
             Edit::LayFlat { triangle: 4 },
         ] {
             assert_eq!(edited(&mesh, &DMat4::IDENTITY, edit), Err(TransformError::NotInvertible), "{edit:?}");
+        }
+    }
+    #[test]
+    fn a_change_is_its_kind_and_its_numbers() {
+        let turn = Edit::Turn { axis: 2, angle_deg: -12.5 };
+        assert_eq!(Edit::from_numbers("turn", &[2.0, -12.5]), Some(turn));
+        assert_eq!(Edit::from_numbers("lay_flat", &[7.0]), Some(Edit::LayFlat { triangle: 7 }));
+        let wrong: [(&str, &[f64]); 5] =
+            [("turn", &[2.0]), ("drop", &[1.0]), ("mirror", &[0.5]), ("lay_flat", &[-1.0]), ("spin", &[])];
+        for (kind, numbers) in wrong {
+            assert_eq!(Edit::from_numbers(kind, numbers), None, "{kind} {numbers:?}");
         }
     }
 }

@@ -7,6 +7,7 @@
 use super::topology::{Beyond, Patches, Sets, Topology, end, start};
 use super::turn::{self, Turned};
 use super::{Mesh, weld};
+use crate::sort::StableSort;
 use glam::Vec3;
 use std::collections::HashMap;
 
@@ -258,7 +259,7 @@ fn bodies(mesh: &Mesh, topology: &Topology, patches: &Patches) -> Bodies {
     for edge in topology.crowded_edges() {
         let mut ends: Vec<(u32, i32)> =
             edge.iter().map(|&h| (patch_of(patches, h), direction(mesh, patches, h))).collect();
-        ends.sort_unstable();
+        ends.stable_sort_by(Ord::cmp);
         let needy =
             ends.chunk_by(|a, b| a.0 == b.0).filter(|same| same.iter().map(|e| e.1).sum::<i32>() != 0);
         let needy: Vec<u32> = needy.map(|same| same[0].0).collect();

@@ -2,6 +2,7 @@
 
 use super::topology::Topology;
 use super::{Mesh, StlError};
+use crate::sort::StableSort;
 use glam::Vec3;
 
 /// Largest coordinate accepted, mm: a kilometre. At that distance neighbouring f32 numbers are
@@ -140,7 +141,7 @@ pub(super) fn drop_duplicates(mesh: &mut Mesh, topology: &Topology) -> usize {
         .into_iter()
         .map(|t| (smallest_first(mesh.triangles[t as usize]), t))
         .collect();
-    suspects.sort_unstable();
+    suspects.stable_sort_by(Ord::cmp);
     let repeats: Vec<u32> = suspects.windows(2).filter(|w| w[0].0 == w[1].0).map(|w| w[1].1).collect();
     drop_triangles(mesh, &repeats);
     repeats.len()

@@ -26,10 +26,9 @@ pub use evaluate::{DirectionFigures, evaluate};
 pub use report::{OrientationReport, Remark, choose};
 
 use glam::Vec3;
-use serde::{Deserialize, Serialize};
 
 use crate::mesh::Mesh;
-use crate::options::Checked;
+use crate::options::Setting;
 
 /// Told how much is done and of how much; returning false cancels.
 pub type Watch<'w> = &'w mut dyn FnMut(u32, u32) -> bool;
@@ -43,28 +42,26 @@ const LAYER_LIMIT: u32 = 100_000;
 /// Sides thinner than this share of the longest one count as flat: what f32 coordinates resolve.
 const FLAT_SHARE: f64 = 1e-6;
 
-/// What to do about the orientation of a part.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum OrientationMode {
-    /// Print the part as it lies.
-    #[default]
-    Keep,
-    /// Turn it the way that needs the least support.
-    Auto,
+crate::words! {
+    /// What to do about the orientation of a part.
+    pub enum OrientationMode {
+        /// Print the part as it lies.
+        #[default]
+        Keep = "keep",
+        /// Turn it the way that needs the least support.
+        Auto = "auto",
+    }
 }
 
-/// Which of the directions compared may be chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum Candidates {
-    /// The six axes of the part as it lies [Karim].
-    #[default]
-    Axes,
-    /// The sides of the convex hull as well.
-    Hull,
+crate::words! {
+    /// Which of the directions compared may be chosen.
+    pub enum Candidates {
+        /// The six axes of the part as it lies [Karim].
+        #[default]
+        Axes = "axes",
+        /// The sides of the convex hull as well.
+        Hull = "hull",
+    }
 }
 
 crate::options! {

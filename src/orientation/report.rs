@@ -1,6 +1,6 @@
 //! The choice among directions, and the report that shows it.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::evaluate::DirectionFigures;
 use super::net::{DIRECTIONS, Net, ScaledVolumes};
@@ -8,7 +8,7 @@ use super::{Candidates, OrientationError, OrientationOptions, exact};
 use crate::sort::StableSort;
 
 /// The directions with their figures, and the choice; the object `orientation` of a report.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct OrientationReport {
     /// Height of the uniform layers that the figures were computed with, mm.

@@ -39,10 +39,9 @@ impl Print {
     pub fn alternatives(&self, clock: Clock) -> Result<Alternatives, JobError> {
         // Beside the part, and on a raft.
         let outlines = [AdhesionKind::None, AdhesionKind::Raft].map(|kind| self.first_outline(kind));
-        let kinds = std::iter::once(AdhesionKind::None).chain(AdhesionKind::ALL);
         let outline_of = |kind| &outlines[usize::from(kind == AdhesionKind::Raft)];
-        let kinds =
-            kinds.map(|kind| self.try_kind(kind, outline_of(kind), clock)).collect::<Result<_, _>>()?;
+        let kinds = AdhesionKind::ALL.into_iter().map(|kind| self.try_kind(kind, outline_of(kind), clock));
+        let kinds = kinds.collect::<Result<_, _>>()?;
         let no_supports = PolygonSet::EMPTY;
         let first = self.first_layer(&outlines[0], &no_supports);
         let warping = Warping::of_material(&self.settings().filament.material);

@@ -7,6 +7,7 @@ use super::report::{Timing, Warning};
 use super::{Clock, Finding, check, vase};
 use crate::gcode::{GcodeOptions, LabelledObject, LayerInput, LayerSummary, Spiral, layer_gcode};
 use crate::mesh::Mesh;
+use crate::options::saved;
 use crate::polygon::{DVec2, Join, Polygon, PolygonSet};
 use crate::region::bridge::{Bridge, bridges};
 use crate::region::first_layer::draw_in;
@@ -36,6 +37,7 @@ const SEAM_REACH: f64 = 1.0;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RangePlan {
     /// All settings of the body's models.
+    #[serde(with = "saved")]
     pub settings: Settings,
     /// The layers to print and the neighbours that decide about their skins.
     pub specs: Vec<LayerSpec>,
@@ -47,6 +49,7 @@ pub struct RangePlan {
     pub seams: Vec<SeamLine>,
     /// How sparse infill is laid, so that with what joins its lines the print as a whole has the
     /// density that is set.
+    #[serde(with = "saved")]
     pub infill: InfillOptions,
     /// For each layer to print what the global phase has laid, base layers and supports, in
     /// printing order; printed before the part.

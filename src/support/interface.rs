@@ -34,14 +34,21 @@ pub(super) fn areas(job: &Job, needs: &[Need]) -> BTreeMap<usize, Dense> {
     }
     // Below a gap the bed's first layer stays bare plates: they must hold on to it.
     below.remove(&0);
-    let area_of = |(k, needs): (usize, Vec<&PolygonSet>)| {
+    let area_of = |k: usize, needs: Vec<&PolygonSet>| {
         let near = (k - frame.below[k])..=(k + frame.above[k]).min(frame.areas.len() - 1);
         let part = PolygonSet::union_all(near.filter(|&i| i != k).map(|i| &frame.areas[i]));
         let beside = frame.areas[k].offset(frame.clearance, Join::WALL);
         let area = PolygonSet::union_all(needs).offset(-frame.width / 2.0, Join::WALL);
-        (k, Dense { area: area.difference(&part).difference(&beside) })
+        area.difference(&part).difference(&beside)
     };
-    below.into_iter().map(area_of).filter(|(_, d)| !d.area.is_empty()).collect()
+    let mut dense = BTreeMap::new();
+    for (k, needs) in below {
+        let area = area_of(k, needs);
+        if !area.is_empty() {
+            dense.insert(k, Dense { area });
+        }
+    }
+    dense
 }
 
 /// Lays the lines of layer `k` and takes the plates' beads that cross them out of `lines`, unless

@@ -31,7 +31,7 @@ pub use options::{GridOptions, PlateOptions, SupportMethod, SupportOptions};
 pub use report::{PlateAxis, PlateReport, SupportReport, Uncovered};
 
 use crate::mesh::{Box3, Mesh};
-use crate::options::Checked;
+use crate::options::Setting;
 use crate::polygon::{DVec2, PolygonSet};
 use crate::region::Path;
 use crate::slice::{Axis, Gap, LayerSpec};

@@ -1,19 +1,16 @@
 //! The settings under `support`.
 
-use serde::{Deserialize, Serialize};
-
-/// What holds up overhangs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum SupportMethod {
-    /// Nothing.
-    #[default]
-    None,
-    /// Thin crossing plates [Zhao].
-    Plates,
-    /// A plain grid below everything that hangs, to compare with.
-    Grid,
+crate::words! {
+    /// What holds up overhangs.
+    pub enum SupportMethod {
+        /// Nothing.
+        #[default]
+        None = "none",
+        /// Thin crossing plates [Zhao].
+        Plates = "plates",
+        /// A plain grid below everything that hangs, to compare with.
+        Grid = "grid",
+    }
 }
 
 crate::options! {

@@ -41,8 +41,6 @@ pub use printer::{Outline, Printer};
 pub use scene::Scene;
 #[cfg(feature = "slicer")]
 pub use settings::{default_settings, resolve_own, resolve_settings, version};
-#[cfg(feature = "slicer")]
-pub use study::orientation_lesson;
 
 use wasm_bindgen::prelude::*;
 

@@ -10,6 +10,7 @@ use super::convert::{
 };
 use super::error::{Thrown, internal_error, usage_error};
 use super::scene::Scene;
+use super::study::orientation_steps;
 use crate::mesh::transform::rotation_to_up;
 use crate::mesh::{Box3, Edit, LoadedModel, Mesh, StlReader, bounds_under, edited};
 use crate::orientation::{
@@ -18,6 +19,7 @@ use crate::orientation::{
 use crate::picture::{ModelPicture, Viewpoint};
 use crate::pipeline::{self, NamedModel};
 use crate::settings::Settings;
+use crate::view::Paper;
 
 /// Reads an STL file from chunks of any size.
 #[wasm_bindgen]
@@ -91,10 +93,12 @@ impl Model {
         self.inner.mesh.triangles.concat()
     }
 
-    /// Where the model stands after `edit` (JSON, `Edit`): the matrix (16 numbers, column by column)
-    /// and the box around it (lowest x y z, highest x y z, mm). Throws a `UsageError`.
-    pub fn edit(&self, placement: &[f64], edit: &str) -> Result<Vec<f64>, Thrown> {
-        let edit: Edit = serde_json::from_str(edit).map_err(usage_error)?;
+    /// Where the model stands after a change, an `Edit` by its kind and its numbers: the matrix (16
+    /// numbers, column by column) and the box around it (lowest x y z, highest x y z, mm). Throws a
+    /// `UsageError`.
+    pub fn edit(&self, placement: &[f64], kind: &str, numbers: &[f64]) -> Result<Vec<f64>, Thrown> {
+        let edit = Edit::from_numbers(kind, numbers);
+        let edit = edit.ok_or_else(|| usage_error(format!("{kind} {numbers:?}: there is no such change")))?;
         let mesh = &self.inner.mesh;
         let placed = edited(mesh, &matrix_from(placement)?, edit).map_err(usage_error)?;
         Ok(matrix_and_box(mesh, &placed))
@@ -134,6 +138,14 @@ impl Model {
         let text = serde_json::to_string(&report).map_err(internal_error)?;
         self.oriented = Some((options, report));
         Ok(text)
+    }
+
+    /// The steps of the lesson about orientation for what `choose` compared last, as JSON
+    /// (`LessonStep[]`).
+    pub fn orientation_lesson(&self, side: f64, dark: bool) -> Result<String, Thrown> {
+        let (_, report) =
+            self.oriented.as_ref().ok_or_else(|| usage_error("directions are not compared yet"))?;
+        orientation_steps(report, Paper::inline(side, dark))
     }
 
     /// The model's triangles as bytes for a `SharedMesh` in another engine.

@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 use std::collections::BTreeMap;
-use wasm_bindgen::prelude::*;
 
 use super::convert::{job_error, now};
 use super::error::{Thrown, internal_error, usage_error};
@@ -106,12 +105,8 @@ pub(super) fn lesson(job: &Job, lesson: &str, at: &str, paper: Paper) -> Result<
     steps_json(steps, paper)
 }
 
-/// The steps of the lesson about orientation for a report (JSON) that `Model.orient` gave, as JSON
-/// (`LessonStep[]`).
-#[wasm_bindgen]
-pub fn orientation_lesson(report: &str, side: f64, dark: bool) -> Result<String, Thrown> {
-    let report: OrientationReport = serde_json::from_str(report).map_err(usage_error)?;
-    steps_json(lessons::orientation(&report), Paper::inline(side, dark))
+pub(super) fn orientation_steps(report: &OrientationReport, paper: Paper) -> Result<String, Thrown> {
+    steps_json(lessons::orientation(report), paper)
 }
 
 fn steps_json(steps: Vec<Step>, paper: Paper) -> Result<String, Thrown> {

@@ -338,8 +338,8 @@ export class Session {
   async lesson(lesson: Lesson, at: string, side: number, dark: boolean): Promise<readonly LessonStep[]> {
     if (lesson !== 'orientation') return await this.study({ about: 'lesson', lesson, at, side, dark });
     const settings = await this.#settings({ 'orientation.hull_directions': 0 });
-    const report = await this.#pool.orient({ settings });
-    return await this.study({ about: 'orientation', report, side, dark });
+    await this.#pool.orient({ settings });
+    return await this.study({ about: 'orientation', side, dark });
   }
 
   /** Compares the directions of the first model; undefined when `signal` ends it. */

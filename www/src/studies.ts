@@ -14,7 +14,7 @@ export type Question =
   | ({ readonly about: 'plane'; readonly plane: string } & Paper)
   | { readonly about: 'sheets' }
   | ({ readonly about: 'lesson'; readonly lesson: Exclude<Lesson, 'orientation'>; readonly at: string } & Paper)
-  | ({ readonly about: 'orientation'; readonly report: string } & Paper);
+  | ({ readonly about: 'orientation' } & Paper);
 
 /** Something about a first layer that makes it lift. */
 export type Reason = 'sharp_corners' | 'long' | 'thin' | 'small' | 'material';

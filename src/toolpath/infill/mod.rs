@@ -12,24 +12,23 @@ use crate::region::{Path, Role};
 use border::{Border, Piece};
 use lines::Hatch;
 
-/// How sparse infill is laid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum InfillPattern {
-    /// Lines in both diagonal directions on every layer.
-    #[default]
-    Grid,
-    /// Lines in one diagonal direction, turned by 90 degrees from layer to layer.
-    Lines,
-    /// Lines in three directions on every layer, which meet in points: stiff walls in between.
-    Triangles,
-    /// A wavy surface that holds in all directions and never crosses itself.
-    Gyroid,
-    /// Hexagons, the same on every layer.
-    Honeycomb,
-    /// Loops that follow the walls: for soft materials.
-    Concentric,
+crate::words! {
+    /// How sparse infill is laid.
+    pub enum InfillPattern {
+        /// Lines in both diagonal directions on every layer.
+        #[default]
+        Grid = "grid",
+        /// Lines in one diagonal direction, turned by 90 degrees from layer to layer.
+        Lines = "lines",
+        /// Lines in three directions on every layer, which meet in points: stiff walls in between.
+        Triangles = "triangles",
+        /// A wavy surface that holds in all directions and never crosses itself.
+        Gyroid = "gyroid",
+        /// Hexagons, the same on every layer.
+        Honeycomb = "honeycomb",
+        /// Loops that follow the walls: for soft materials.
+        Concentric = "concentric",
+    }
 }
 
 crate::options! {

@@ -5,6 +5,7 @@ use spade::{CdtEdge, ConstrainedDelaunayTriangulation, HasPosition, Point2, Tria
 
 use crate::polygon::simplify::closest_on_segment;
 use crate::polygon::{Contour, DVec2, Polygon, by_x_then_y};
+use crate::sort::StableSort;
 
 /// No triangle, no vertex.
 pub(super) const NONE: u32 = u32::MAX;
@@ -141,7 +142,7 @@ impl Outline {
         for (links, _) in beside.iter_mut().zip(visits).filter(|(_, visits)| *visits > 1) {
             *links = [NONE; 2];
         }
-        edges.sort_unstable();
+        edges.stable_sort_by(Ord::cmp);
         Outline { edges, beside }
     }
 
@@ -201,7 +202,7 @@ fn numbered(rings: &[Vec<DVec2>]) -> (Vec<DVec2>, Vec<Vec<u32>>) {
     for (r, ring) in rings.iter().enumerate() {
         order.extend(ring.iter().enumerate().map(|(i, &p)| (p, r, i)));
     }
-    order.sort_unstable_by(|a, b| by_x_then_y(a.0, b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    order.stable_sort_by(|a, b| by_x_then_y(a.0, b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
     let mut points: Vec<DVec2> = Vec::with_capacity(order.len());
     let mut numbers: Vec<Vec<u32>> = rings.iter().map(|r| vec![NONE; r.len()]).collect();
     for (p, r, i) in order {

@@ -10,20 +10,19 @@ use crate::region::Path;
 pub use chain::{SeamLine, chain_seams};
 use corner::hiding;
 
-/// Which place of a loop becomes its seam.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum SeamPosition {
-    /// In a corner, inward ones first, and in one line from layer to layer.
-    #[default]
-    Aligned,
-    /// Where the nozzle is nearest: least travel, seams here and there.
-    Nearest,
-    /// At the rearmost place.
-    Rear,
-    /// Scattered, the same way on every run: no line, but dots all over.
-    Random,
+crate::words! {
+    /// Which place of a loop becomes its seam.
+    pub enum SeamPosition {
+        /// In a corner, inward ones first, and in one line from layer to layer.
+        #[default]
+        Aligned = "aligned",
+        /// Where the nozzle is nearest: least travel, seams here and there.
+        Nearest = "nearest",
+        /// At the rearmost place.
+        Rear = "rear",
+        /// Scattered, the same way on every run: no line, but dots all over.
+        Random = "random",
+    }
 }
 
 crate::options! {

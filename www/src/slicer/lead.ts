@@ -178,7 +178,7 @@ export class Lead {
   /** Answers from a job of its own, about all models together: the one that is sliced goes on. */
   #study({ settings, question, standing }: Extract<LeadRequest, { kind: 'study' }>): string {
     if (question.about === 'orientation') {
-      return this.#engine.orientation_lesson(question.report, question.side, question.dark);
+      return this.#model(0).orientation_lesson(question.side, question.dark);
     }
     const together = this.#engine.resolve_settings([settings], ['print.sequence=by_layer']);
     const { models, placements } = standing ?? this.#all();
@@ -213,7 +213,7 @@ export class Lead {
   #edit(model: number, matrix: readonly number[], edit: Edit | undefined): Float64Array {
     const placement = Float64Array.from(matrix);
     if (edit === undefined) return this.#model(model).stand(placement);
-    return this.#model(model).edit(placement, JSON.stringify(edit));
+    return this.#model(model).edit(placement, edit.kind, numbersOf(edit));
   }
 
   #arrange({ placements, boxes, settings, own }: Extract<LeadRequest, { kind: 'arrange' }>): Float64Array {
@@ -287,6 +287,26 @@ export class Lead {
 
 /** A matrix that leaves all where it is. */
 const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
+
+/** The numbers of a change in the order in which the engine's `Model.edit` takes them. */
+function numbersOf(edit: Edit): Float64Array {
+  switch (edit.kind) {
+    case 'drop':
+      return Float64Array.of();
+    case 'turn':
+      return Float64Array.of(edit.axis, edit.angle_deg);
+    case 'scale':
+      return Float64Array.from(edit.factors);
+    case 'mirror':
+      return Float64Array.of(edit.axis);
+    case 'lay_flat':
+      return Float64Array.of(edit.triangle);
+    case 'turn_up':
+      return Float64Array.from(edit.up);
+    default:
+      return edit satisfies never;
+  }
+}
 
 function shapeOf(model: Model): Shape {
   return {
