@@ -91,8 +91,9 @@ usage: foothold slice MODEL... [-o OUT.gcode] [--printer ID] [--material ID] [--
   settings   all settings, or their JSON Schema
   profiles   the printers, materials and qualities that --printer, --material and --quality name; without
              --printer it is a Marlin printer of 220 x 220 x 250 mm with PLA
-  import     a profile of PrusaSlicer (.ini, .gcode), OrcaSlicer (.json) or Cura (.curaprofile) as settings,
-             and what became of each of its values; slice takes the file with --settings
+  import     a profile of PrusaSlicer (.ini), OrcaSlicer (.json) or Cura (.curaprofile), or the settings in
+             G-code of theirs or of this program, and what became of each value; slice takes what -o writes
+             with --settings
 
   -o, --output     file to write, whole or not at all; - is standard output
   --printer, --material, --quality

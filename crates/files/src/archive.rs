@@ -1,5 +1,6 @@
 //! ZIP archives whose unfolded size is bounded.
 
+use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader, Cursor, Error, Read};
 
 use zip::ZipArchive;
@@ -16,6 +17,8 @@ pub(crate) fn is_zip(bytes: &[u8]) -> bool {
 /// An open archive and what may still be unfolded from it.
 pub(crate) struct Archive<'a> {
     zip: ZipArchive<Cursor<&'a [u8]>>,
+    /// Names of its files by the same in small letters.
+    names: BTreeMap<String, String>,
     left: u64,
 }
 
@@ -27,20 +30,20 @@ impl<'a> Archive<'a> {
             return Err(FileError::TooMuch { what: "files in the archive", limit: FILES });
         }
         let by_ratio = UNFOLDED_FREE + UNFOLDED_RATIO * bytes.len() as u64;
-        Ok(Archive { zip, left: by_ratio.min(UNFOLDED_BYTES) })
+        let names = zip.file_names().flatten().map(|n| (n.to_ascii_lowercase(), n.into_owned())).collect();
+        Ok(Archive { zip, names, left: by_ratio.min(UNFOLDED_BYTES) })
     }
 
     /// Names of all files, sorted.
     pub(crate) fn names(&self) -> Vec<String> {
-        let mut names: Vec<String> = self.zip.file_names().flatten().map(|n| n.into_owned()).collect();
+        let mut names: Vec<String> = self.names.values().cloned().collect();
         names.sort();
         names
     }
 
     /// Whether there is a file of this name, in any case of letters as OPC has it.
     pub(crate) fn find(&self, name: &str) -> Option<String> {
-        let name = name.trim_start_matches('/');
-        self.zip.file_names().flatten().map(|n| n.into_owned()).find(|n| n.eq_ignore_ascii_case(name))
+        self.names.get(&name.trim_start_matches('/').to_ascii_lowercase()).cloned()
     }
 
     /// Hands a file's bytes to `read` as they unfold.

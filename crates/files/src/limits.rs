@@ -24,6 +24,9 @@ pub const TRIANGLES: usize = 20_000_000;
 /// Corners of a file, after copies are made.
 pub const VERTICES: usize = 20_000_000;
 
+/// Corners looked at while faces that are not convex are cut into triangles, in a file.
+pub const EAR_STEPS: usize = 200_000_000;
+
 /// Components within each other.
 pub const COMPONENT_DEPTH: usize = 16;
 

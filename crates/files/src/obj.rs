@@ -5,7 +5,7 @@
 
 use crate::Part;
 use crate::error::FileError;
-use crate::limits::{REACH_MM, TRIANGLES, VERTICES};
+use crate::limits::{EAR_STEPS, REACH_MM, TRIANGLES, VERTICES};
 
 /// Corners of a face at most.
 const FACE_CORNERS: usize = 100_000;
@@ -14,7 +14,8 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Part, FileError> {
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         return Err(FileError::Encoding { seems: "UTF-16" });
     }
-    let mut part = Part::default();
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let (mut part, mut steps) = (Part::default(), EAR_STEPS);
     let mut lines = bytes.split(|&b| b == b'\n').zip(1_usize..);
     while let Some((line, number)) = lines.next() {
         let mut line = trimmed(line).to_vec();
@@ -24,7 +25,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Part, FileError> {
             line.push(b' ');
             line.extend_from_slice(trimmed(next));
         }
-        take_line(&line, number, &mut part)?;
+        take_line(&line, number, &mut part, &mut steps)?;
     }
     if part.triangles.is_empty() {
         return Err(FileError::NoTriangles);
@@ -37,7 +38,8 @@ fn trimmed(line: &[u8]) -> &[u8] {
     code.trim_ascii()
 }
 
-fn take_line(line: &[u8], number: usize, part: &mut Part) -> Result<(), FileError> {
+/// Takes over one line; `steps` may still be spent on cutting faces.
+fn take_line(line: &[u8], number: usize, part: &mut Part, steps: &mut usize) -> Result<(), FileError> {
     let malformed =
         |cause: &str| FileError::Malformed { place: format!("line {number}"), cause: cause.to_owned() };
     let mut words = line.split(u8::is_ascii_whitespace).filter(|w| !w.is_empty());
@@ -70,7 +72,9 @@ fn take_line(line: &[u8], number: usize, part: &mut Part) -> Result<(), FileErro
             if part.triangles.len() + face.len() > TRIANGLES {
                 return Err(FileError::TooMuch { what: "triangles", limit: TRIANGLES });
             }
-            triangulate(&face, &part.vertices, &mut part.triangles);
+            if !triangulate(&face, &part.vertices, &mut part.triangles, steps) {
+                return Err(malformed("faces with so many corners that are not convex: export triangles"));
+            }
         }
         Some(b"curv" | b"curv2" | b"surf" | b"cstype") => {
             return Err(malformed("free-form curves and surfaces are not supported: export triangles"));
@@ -93,21 +97,24 @@ fn index(word: &[u8], count: usize) -> Option<u32> {
     (0..count as i64).contains(&at).then_some(at as u32)
 }
 
-/// Cuts a flat face into triangles: triangles and convex faces as a fan, others by cutting ears.
-fn triangulate(face: &[u32], vertices: &[[f32; 3]], out: &mut Vec<[u32; 3]>) {
+/// Cuts a flat face into triangles: triangles and convex faces as a fan, others by cutting ears. Whether
+/// `steps` were enough: cutting ears takes up to the third power of the corners.
+fn triangulate(face: &[u32], vertices: &[[f32; 3]], out: &mut Vec<[u32; 3]>, steps: &mut usize) -> bool {
     if face.len() == 3 {
-        return out.push([face[0], face[1], face[2]]);
+        out.push([face[0], face[1], face[2]]);
+        return true;
     }
     let flat = flattened(face, vertices);
     let turn = |i: usize, j: usize, k: usize| cross(flat[i], flat[j], flat[k]);
     let n = face.len();
     if (0..n).all(|i| turn(i, (i + 1) % n, (i + 2) % n) >= 0.0) {
-        return out.extend((1..n - 1).map(|i| [face[0], face[i], face[i + 1]]));
+        out.extend((1..n - 1).map(|i| [face[0], face[i], face[i + 1]]));
+        return true;
     }
     let mut ring: Vec<usize> = (0..n).collect();
     while ring.len() > 3 {
         let m = ring.len();
-        let is_ear = |&i: &usize| {
+        let mut is_ear = |&i: &usize| {
             let [a, b, c] = [ring[(i + m - 1) % m], ring[i], ring[(i + 1) % m]];
             let inside = |&p: &usize| {
                 ![a, b, c].contains(&p)
@@ -115,14 +122,24 @@ fn triangulate(face: &[u32], vertices: &[[f32; 3]], out: &mut Vec<[u32; 3]>) {
                     && turn(b, c, p) >= 0.0
                     && turn(c, a, p) >= 0.0
             };
-            turn(a, b, c) > 0.0 && !ring.iter().any(inside)
+            *steps = steps.saturating_sub(1);
+            if *steps == 0 || turn(a, b, c) <= 0.0 {
+                return false;
+            }
+            let hit = ring.iter().position(inside);
+            *steps = steps.saturating_sub(hit.unwrap_or(m));
+            hit.is_none()
         };
         // A face that crosses itself has no ear; any corner then does.
-        let ear = (0..m).find(is_ear).unwrap_or(0);
+        let ear = (0..m).find(&mut is_ear).unwrap_or(0);
+        if *steps == 0 {
+            return false;
+        }
         out.push([ring[(ear + m - 1) % m], ring[ear], ring[(ear + 1) % m]].map(|i| face[i]));
         ring.remove(ear);
     }
     out.push([ring[0], ring[1], ring[2]].map(|i| face[i]));
+    true
 }
 
 /// The face seen along the axis that it faces most, counter-clockwise (Newell's normal).

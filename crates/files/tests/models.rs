@@ -215,6 +215,103 @@ fn objects_within_objects_end() {
     assert!(matches!(refusal(&threemf("", itself, "<item objectid=\"1\"/>")), FileError::TooMuch { .. }));
 }
 
+/// What other people might send: each is refused by name, soon, and in little memory.
+#[test]
+fn hostile_archives_are_refused() {
+    let good = format!("<object id=\"1\">{TETRA}</object>");
+    let item = "<item objectid=\"1\"/>";
+    // Two objects that hold each other, and a chain deeper than any real one.
+    let pair = "<object id=\"1\"><components><component objectid=\"2\"/></components></object>\
+                <object id=\"2\"><components><component objectid=\"1\"/></components></object>";
+    assert!(matches!(refusal(&threemf("", pair, item)), FileError::TooMuch { .. }));
+    let link = |id: u32| {
+        format!("<object id=\"{id}\"><components><component objectid=\"{}\"/></components></object>", id - 1)
+    };
+    let chain: String = std::iter::once(good.clone()).chain((2..40).map(link)).collect();
+    assert!(matches!(refusal(&threemf("", &chain, "<item objectid=\"39\"/>")), FileError::TooMuch { .. }));
+    // Entities that unfold to more entities.
+    let laughs = "<?xml version=\"1.0\"?><!DOCTYPE m [<!ENTITY a \"aaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;\">]>";
+    let named = format!(
+        "{laughs}<model {CORE}><resources><object id=\"1\" name=\"&b;\">{TETRA}</object></resources></model>"
+    );
+    let said = refusal(&zipped(&[("3D/3dmodel.model", &named)])).to_string();
+    assert!(said.contains('b') && said.starts_with("3D/3dmodel.model: "), "{said}");
+    // Numbers larger than any file, and such that are none.
+    for (from, to, words) in [
+        ("id=\"1\">", "id=\"99999999999999999999\">", "is no number"),
+        ("v1=\"0\" v2=\"2\"", "v1=\"4294967295\" v2=\"2\"", "a vertex that is not there"),
+        ("v1=\"0\" v2=\"2\"", "v1=\"-1\" v2=\"2\"", "is no number"),
+        ("x=\"1\"", "x=\"1e999\"", "needs x, y and z"),
+        ("x=\"1\"", "x=\"0x10\"", "is no number"),
+    ] {
+        let said = refusal(&threemf("", &good.replacen(from, to, 1), item)).to_string();
+        assert!(said.contains(words), "{to}: {said}");
+    }
+    // Latin-1 where UTF-8 is the rule, and a file that is no text at all.
+    let latin = model("", &good.replace("id=\"1\"", "id=\"1\" name=\"W\u{fc}rfel\""), item);
+    let latin: Vec<u8> = latin.chars().map(|c| c as u8).collect();
+    for bytes in [latin, vec![0xff; 1000], vec![0; 1000]] {
+        let error = refusal(&holding(&bytes));
+        assert!(matches!(error, FileError::Xml { .. } | FileError::Malformed { .. }), "{error:?}");
+    }
+    // An archive within an archive is no model.
+    let inner = threemf("", &good, item);
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    zip.start_file("inner.3mf", SimpleFileOptions::default()).expect("in memory");
+    zip.write_all(&inner).expect("in memory");
+    assert_eq!(refusal(&zip.finish().expect("in memory").into_inner()), FileError::NotThreeMf);
+}
+
+/// Wherever an archive ends too early, it is called damaged.
+#[test]
+fn archives_cut_anywhere_are_damaged() {
+    let object = format!("<object id=\"1\">{TETRA}</object>");
+    let good = zipped(&[
+        ("[Content_Types].xml", "<Types/>"),
+        ("3D/3dmodel.model", &model("", &object, "<item objectid=\"1\"/>")),
+        ("Metadata/notes.txt", &"notes ".repeat(1000)),
+    ]);
+    for percent in 1..100 {
+        let error = refusal(&good[..good.len() * percent / 100]);
+        assert!(matches!(error, FileError::Archive { .. }), "{percent} %: {error:?}");
+    }
+}
+
+/// Ten thousand files and ten thousand components that name them are looked up, not searched for.
+#[test]
+fn many_files_and_components_take_no_time() {
+    let names: Vec<String> = (0..9_000).map(|k| format!("3D/part{k}.model")).collect();
+    let one = model("", &format!("<object id=\"1\">{TETRA}</object>"), "");
+    let component = "<component objectid=\"1\" p:path=\"/3D/PART8999.model\"/>".repeat(9_000);
+    let root = model(
+        "",
+        &format!("<object id=\"2\"><components>{component}</components></object>"),
+        "<item objectid=\"2\"/>",
+    );
+    let mut files: Vec<(&str, &str)> = names.iter().map(|name| (name.as_str(), one.as_str())).collect();
+    files.push(("3D/3dmodel.model", &root));
+    assert_eq!(parts(&zipped(&files))[0].triangles.len(), 36_000);
+}
+
+/// A face that crosses itself everywhere would take the third power of its corners.
+#[test]
+fn faces_that_never_end_are_refused() {
+    let corners = 30_000;
+    let mut text = String::new();
+    for k in 0..corners {
+        // A zigzag between two lines, its corners in an order that crosses all others.
+        let x = (k * 7_919) % corners;
+        text += &format!("v {x} {} 0\n", k % 2);
+    }
+    text += "f";
+    (1..=corners).for_each(|k| text += &format!(" {k}"));
+    let said = read_model("a.obj", text.as_bytes()).expect_err("too much").to_string();
+    assert!(said.starts_with("line 30001: ") && said.ends_with("not convex: export triangles"), "{said}");
+    // A byte order mark is no vertex.
+    let marked = format!("\u{feff}{}", OBJ.trim_start_matches("# a tetrahedron\no wedge\n"));
+    assert_eq!(read_model("a.obj", marked.as_bytes()).expect("good")[0].vertices.len(), 4);
+}
+
 const OBJ: &str = "# a tetrahedron\no wedge\nv 0 0 0\nv 1 0 0 1.0\nv 0 2 0\nv 0 0 3\nvn 0 0 1\nusemtl red\nf 1 3 2\nf 1/1/1 2/2/2 4/3/3\nf -3//1 -2//1 -1//1\nf 3 \\\n 1 4\n";
 
 #[test]

@@ -100,7 +100,7 @@ fn prusa_printer() {
         }),
     );
     assert!(why(&found, "end_gcode").starts_with("its placeholder \"if layer_z < max_print_height\""));
-    assert_eq!(why(&found, "machine_max_acceleration_extruding"), "the first of several tools");
+    assert_eq!(why(&found, "machine_max_acceleration_extruding"), "the first of several values");
     assert_eq!(keys(&found.unknown), ["silent_mode"]);
 }
 
@@ -115,8 +115,7 @@ fn prusa_filament() {
             "fan_speed": 0.5, "bridge_fan_speed": 0.5, "fan_first_layers": 3
         } }),
     );
-    assert!(found.changed.is_empty());
-    assert_eq!(keys(&found.unknown), ["cooling"]);
+    assert!(found.changed.is_empty() && found.unknown.is_empty());
 }
 
 #[test]
@@ -232,6 +231,104 @@ fn cura_damaged() {
         keys(&found.changed),
         ["infill_pattern", "infill_sparse_density", "layer_height", "machine_start_gcode", "wall_line_count"]
     );
+}
+
+/// What PrusaSlicer writes for its own defaults: the brim's type is there, its width is 0.
+#[test]
+fn prusa_defaults_have_a_skirt_and_no_brim() {
+    let text = "brim_type = outer_only\nbrim_width = 0\nskirts = 1\nskirt_distance = 6\nraft_layers = 0\n\
+                perimeter_extrusion_width = 0\nextrusion_width = 0.5\nlayer_height = 0.3\n";
+    let found = import(text.as_bytes()).expect("a profile");
+    assert_settings(
+        &found,
+        json!({
+            "layers": { "height": 0.3 }, "walls": { "width": 0.5 },
+            "adhesion": { "kind": "skirt", "skirt": { "loops": 1, "distance": 6.0 } }
+        }),
+    );
+    assert_eq!(why(&found, "extrusion_width"), "stands for the walls' width, which is 0");
+}
+
+#[test]
+fn fans_accelerations_and_switches_of_prusa() {
+    let text = "cooling = 1\nfan_always_on = 0\nmin_fan_speed = 35\nmax_fan_speed = 100\n\
+                slowdown_below_layer_time = 20\nmin_print_speed = 15\nfan_below_layer_time = 100\n\
+                default_acceleration = 800\nmachine_max_acceleration_extruding = 1250,960\n\
+                travel_acceleration = 0\nmachine_max_acceleration_travel = 1500\nperimeter_acceleration = 500\n\
+                ironing = 1\nironing_flowrate = 20%\ninfill_overlap = 0.1\nspiral_vase = 0\nwipe = 1,1\n\
+                top_fill_pattern = rectilinear\nthumbnails = 16x16,220x124\nthumbnails_format = QOI\n";
+    let found = import(text.as_bytes()).expect("a profile");
+    assert_settings(
+        &found,
+        json!({
+            "filament": { "fan_speed": 0.0, "max_fan_speed": 1.0 },
+            "cooling": { "min_layer_time": 20.0, "min_speed": 15.0, "fan_below_layer_time": 100.0 },
+            "printer": { "acceleration": 800.0, "travel_acceleration": 1500.0 },
+            "acceleration": { "inner_wall": 500.0 }, "ironing": { "enabled": true, "flow": 0.2 },
+            "layers": { "spiral_vase": false }, "retraction": { "wipe": true }, "skin": { "monotonic": false },
+            "gcode": { "thumbnails": "16x16/QOI, 220x124/QOI" }
+        }),
+    );
+    assert_eq!(why(&found, "min_fan_speed"), "the fan rests on layers that take their time");
+    assert_eq!(why(&found, "machine_max_acceleration_extruding"), "default_acceleration goes before it");
+    assert_eq!(why(&found, "infill_overlap"), "a length, and a share here; left as it is");
+    // Always on, and nothing slowed down.
+    let text = "cooling = 0\nfan_always_on = 1\nmin_fan_speed = 40\nmax_fan_speed = 100\n\
+                slowdown_below_layer_time = 20\nthumbnails = 32x32/JPG\nlayer_height = 0.2\ntemperature = 200\n";
+    let found = import(text.as_bytes()).expect("a profile");
+    assert_eq!(found.settings["filament"]["fan_speed"], 0.4);
+    assert_eq!(found.settings["cooling"], json!({ "min_layer_time": 0.0 }));
+    assert_eq!(why(&found, "max_fan_speed"), "automatic cooling is switched off");
+    assert_eq!(why(&found, "thumbnails"), "only PNG and QOI are written; left as it is");
+}
+
+/// Whose settings `inspect` names in G-code, those `import` reads.
+#[test]
+fn gcode_of_orca_cura_and_our_own() {
+    let orca = "; HEADER_BLOCK_START\n; HEADER_BLOCK_END\n; CONFIG_BLOCK_START\n; bed_exclude_area = 0x0,18x0,18x28,0x28\n\
+                ; brim_type = outer_only\n; brim_width = 0\n; skirt_loops = 2\n; layer_height = 0.28\n\
+                ; default_acceleration = 6000\n; sparse_infill_acceleration = 50%\n; enable_arc_fitting = 1\n\
+                ; CONFIG_BLOCK_END\nG28\n; layer_height = 9\n";
+    let found = import(orca.as_bytes()).expect("settings");
+    assert_eq!(found.slicer, "orcaslicer");
+    assert_settings(
+        &found,
+        json!({
+            "layers": { "height": 0.28 }, "adhesion": { "kind": "skirt", "skirt": { "loops": 2 } },
+            "printer": { "forbidden": [[0.0, 0.0, 18.0, 28.0]], "acceleration": 6000.0 },
+            "acceleration": { "infill": 3000.0 }, "gcode": { "arc_fitting": true }
+        }),
+    );
+
+    let cura = ";FLAVOR:Marlin\nG28\n;End of Gcode\n;SETTING_3 {\"global_quality\": \"[general]\\\\nversion = 4\\\\n\\\\n[values]\\\\nlayer_hei\n\
+                ;SETTING_3 ght = 0.16\\\\nadhesion_type = skirt\\\\n\\\\n\", \"extruder_quality\": [\"[general]\\\\n\n\
+                ;SETTING_3 [values]\\\\nwall_line_count = 4\\\\nxy_offset = -0.05\\\\n\"]}\n";
+    let found = import(cura.as_bytes()).expect("settings");
+    assert_eq!(found.slicer, "cura");
+    assert_settings(
+        &found,
+        json!({
+            "layers": { "height": 0.16 }, "adhesion": { "kind": "skirt" },
+            "walls": { "count": 4, "horizontal_expansion": -0.05 }
+        }),
+    );
+    let cut = &cura.as_bytes()[..cura.len() - 5];
+    assert!(matches!(import(cut).unwrap_err(), FileError::Malformed { .. }));
+
+    let own = "; generated by Foothold 0.1.0\nG28\n; filament used [mm] = 12.3\n; adhesion.kind = teeth\n\
+               ; gcode.thumbnails = \n; layers.height = 0.2\n; printer.bed_size = [256.0,256.0]\n\
+               ; printer.start_gcode = G28\\nM109 S{nozzle_temp} ; hot\n; walls.count = 3\n; walls.colour = 7\n";
+    let found = import(own.as_bytes()).expect("settings");
+    assert_eq!(found.slicer, "foothold");
+    assert_settings(
+        &found,
+        json!({
+            "adhesion": { "kind": "teeth" }, "gcode": { "thumbnails": "" }, "layers": { "height": 0.2 },
+            "printer": { "bed_size": [256.0, 256.0], "start_gcode": "G28\nM109 S{nozzle_temp} ; hot" },
+            "walls": { "count": 3 }
+        }),
+    );
+    assert_eq!(keys(&found.unknown), ["walls.colour"]);
 }
 
 #[test]

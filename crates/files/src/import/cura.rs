@@ -83,6 +83,27 @@ const ROWS: &[Row] = &[
     ("bridge_wall_speed", "speed.bridge", Turn::Number),
     ("acceleration_print", "printer.acceleration", Turn::Number),
     ("acceleration_travel", "printer.travel_acceleration", Turn::Number),
+    ("acceleration_wall_0", "acceleration.outer_wall", Turn::Number),
+    ("acceleration_wall_x", "acceleration.inner_wall", Turn::Number),
+    ("acceleration_infill", "acceleration.infill", Turn::Number),
+    ("acceleration_topbottom", "acceleration.solid_infill", Turn::Number),
+    ("acceleration_roofing", "acceleration.top_skin", Turn::Number),
+    ("acceleration_support", "acceleration.support", Turn::Number),
+    ("acceleration_layer_0", "acceleration.first_layer", Turn::Number),
+    ("cool_fan_speed_min", "filament.fan_speed", Turn::Percent),
+    ("cool_fan_speed_max", "filament.max_fan_speed", Turn::Percent),
+    ("cool_min_layer_time", "cooling.min_layer_time", Turn::Number),
+    ("cool_min_layer_time_fan_speed_max", "cooling.fan_below_layer_time", Turn::Number),
+    ("cool_min_speed", "cooling.min_speed", Turn::Number),
+    ("xy_offset", "walls.horizontal_expansion", Turn::Number),
+    ("hole_xy_offset", "walls.hole_expansion", Turn::Number),
+    ("magic_spiralize", "layers.spiral_vase", Turn::Switch),
+    ("ironing_enabled", "ironing.enabled", Turn::Switch),
+    ("ironing_flow", "ironing.flow", Turn::Percent),
+    ("ironing_line_spacing", "ironing.spacing", Turn::Number),
+    ("infill_overlap", "infill.overlap", Turn::Percent),
+    ("min_infill_area", "infill.solid_below_area", Turn::Number),
+    ("speed_z_hop", "speed.travel_z", Turn::Number),
     ("retraction_amount", "retraction.length", Turn::Number),
     ("retraction_speed", "retraction.speed", Turn::Number),
     ("retraction_min_travel", "retraction.min_travel", Turn::Number),
@@ -137,6 +158,26 @@ pub(super) fn import(bytes: &[u8]) -> Result<Imported, FileError> {
     Ok(collected(found))
 }
 
+/// The settings at the end of Cura's G-code: JSON of the same texts as in a profile, cut into comments, its
+/// backslashes doubled. `None` for other files.
+pub(super) fn block(text: &str) -> Result<Option<Values>, FileError> {
+    let cut: String = text.lines().filter_map(|line| line.strip_prefix(";SETTING_3 ")).collect();
+    if cut.is_empty() {
+        return Ok(None);
+    }
+    let malformed =
+        |e: serde_json::Error| FileError::Malformed { place: "SETTING_3".to_owned(), cause: e.to_string() };
+    let root: Value = serde_json::from_str(&cut.replace("\\\\", "\\")).map_err(malformed)?;
+    let mut found = BTreeMap::new();
+    let extruders = root["extruder_quality"].as_array().into_iter().flatten();
+    for text in std::iter::once(&root["global_quality"]).chain(extruders).filter_map(Value::as_str) {
+        for (key, value) in values(text) {
+            found.entry(key).or_insert(value);
+        }
+    }
+    Ok(Some(found))
+}
+
 /// The pairs below `[values]`. Lines that are indented go on with the one before.
 fn values(text: &str) -> Vec<(String, String)> {
     let below = text.split_once("[values]").map_or("", |(_, rest)| rest);
@@ -154,7 +195,7 @@ fn values(text: &str) -> Vec<(String, String)> {
     pairs
 }
 
-fn collected(mut found: Values) -> Imported {
+pub(super) fn collected(mut found: Values) -> Imported {
     let mut out = Collector::new();
     let formulas: Vec<String> =
         found.iter().filter(|(_, v)| v.starts_with('=')).map(|(k, _)| k.clone()).collect();
@@ -167,7 +208,14 @@ fn collected(mut found: Values) -> Imported {
     {
         out.leave("line_width", &text, "wall_line_width goes before it");
     }
+    if let Some(text) = found.remove("acceleration_enabled").filter(|text| switch(text) == Some(false)) {
+        out.leave("acceleration_enabled", &text, "accelerations are the printer's own");
+        found.retain(|key, _| !key.starts_with("acceleration_"));
+    }
     take_all(ROWS, &[], &mut found, &mut out);
+    if let Some(text) = found.remove("cool_fan_enabled").filter(|text| switch(text) == Some(false)) {
+        out.map("cool_fan_enabled", &text, "filament.fan_speed", Value::from(0.0));
+    }
     take_speed(&mut found, &mut out);
     take_retraction(&mut found, &mut out);
     take_first_layers(&mut found, &mut out);

@@ -6,6 +6,7 @@
 mod code;
 mod cura;
 mod orca;
+mod own;
 mod prusa;
 mod schema;
 mod table;
@@ -21,7 +22,7 @@ use schema::{Schema, Setting};
 /// Settings taken over from a profile.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Imported {
-    /// "prusaslicer", "orcaslicer" or "cura".
+    /// "prusaslicer", "orcaslicer", "cura" or "foothold".
     pub slicer: &'static str,
     /// The settings, nested, as a settings file has them.
     pub settings: Value,
@@ -51,8 +52,8 @@ pub struct Entry {
     pub why: Option<String>,
 }
 
-/// Reads a profile: PrusaSlicer's `.ini` or the block at the end of its G-code, OrcaSlicer's JSON, or a
-/// `.curaprofile`, each by its content.
+/// Reads a profile: PrusaSlicer's `.ini`, OrcaSlicer's JSON, a `.curaprofile`, or the settings in G-code of
+/// any of them or our own, each by its content.
 pub fn import(bytes: &[u8]) -> Result<Imported, FileError> {
     if bytes.is_empty() {
         return Err(FileError::Empty);
@@ -70,10 +71,35 @@ pub fn import(bytes: &[u8]) -> Result<Imported, FileError> {
     if text.trim_start().starts_with('{') {
         return orca::import(&text);
     }
+    // Bambu Studio's stand at the head.
+    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(HEAD_BYTES)]);
+    if let Some(found) = orca::block(&text).or_else(|| orca::block(&head)) {
+        return Ok(orca::collected(found));
+    }
+    if let Some(found) = cura::block(&text)? {
+        return Ok(cura::collected(found));
+    }
+    if let Some(pairs) = own::pairs(&text) {
+        return Ok(own::import(pairs));
+    }
     if let Some(pairs) = prusa::pairs(&text) {
         return Ok(prusa::import(pairs));
     }
     Err(FileError::UnknownProfile)
+}
+
+/// Settings at the head of G-code end before this many bytes.
+const HEAD_BYTES: usize = 1 << 20;
+
+/// The lines `; name = value` of G-code.
+fn comment_pairs<'t>(lines: impl Iterator<Item = &'t str>) -> table::Values {
+    let pair = |line: &str| {
+        let (key, value) = line.strip_prefix(';')?.split_once('=')?;
+        let key = key.trim();
+        let is_name = !key.is_empty() && key.bytes().all(|b| b.is_ascii_alphanumeric() || b"_.".contains(&b));
+        is_name.then(|| (key.to_owned(), value.trim().to_owned()))
+    };
+    lines.filter_map(pair).collect()
 }
 
 /// Bytes as text, without a byte order mark.

@@ -4,10 +4,10 @@ use serde_json::Value;
 
 use super::code::Placeholders;
 use super::table::{
-    Relative, Row, Turn, Values, brim_side, first_of, leave_rest, number, take_all, take_bed, take_bed_only,
-    take_supports, take_threshold,
+    FanNames, Relative, Row, Turn, Values, brim_side, first_of, leave_rest, number, take_acceleration,
+    take_all, take_bed, take_bed_only, take_fan, take_supports, take_threshold, take_thumbnails,
 };
-use super::{Collector, Imported};
+use super::{Collector, Imported, comment_pairs};
 
 const NAMES: Placeholders = &[
     ("first_layer_temperature", "first_layer_nozzle_temp"),
@@ -57,6 +57,11 @@ pub(super) const FLAVORS: Turn = Turn::Word(&[
     ("repetier", "repetier"),
 ]);
 
+/// Lines laid in one direction; other patterns of tops are straight lines here as well.
+pub(super) const MONOTONIC: Turn = Turn::Is(&["monotonic", "monotoniclines", "monotonicline"]);
+
+const ARCS: Turn = Turn::Is(&["emit_center"]);
+
 const ROWS: &[Row] = &[
     ("layer_height", "layers.height", Turn::Number),
     ("perimeters", "walls.count", Turn::Number),
@@ -77,8 +82,6 @@ const ROWS: &[Row] = &[
     ("machine_max_feedrate_x", "printer.max_speed_xy", Turn::Number),
     ("machine_max_feedrate_z", "printer.max_speed_z", Turn::Number),
     ("machine_max_feedrate_e", "printer.max_speed_e", Turn::Number),
-    ("machine_max_acceleration_extruding", "printer.acceleration", Turn::Number),
-    ("machine_max_acceleration_travel", "printer.travel_acceleration", Turn::Number),
     ("machine_max_acceleration_retracting", "printer.retract_acceleration", Turn::Number),
     ("machine_max_acceleration_z", "printer.z_acceleration", Turn::Number),
     ("filament_type", "filament.material", Turn::Text),
@@ -90,7 +93,6 @@ const ROWS: &[Row] = &[
     ("first_layer_temperature", "filament.first_layer_nozzle_temp", Turn::Number),
     ("bed_temperature", "filament.bed_temp", Turn::Number),
     ("first_layer_bed_temperature", "filament.first_layer_bed_temp", Turn::Number),
-    ("max_fan_speed", "filament.fan_speed", Turn::Percent),
     ("bridge_fan_speed", "filament.bridge_fan_speed", Turn::Percent),
     ("disable_fan_first_layers", "filament.fan_first_layers", Turn::Number),
     ("retract_length", "retraction.length", Turn::Number),
@@ -113,7 +115,34 @@ const ROWS: &[Row] = &[
     ("skirt_distance", "adhesion.skirt.distance", Turn::Number),
     ("min_skirt_length", "adhesion.skirt.min_length", Turn::Number),
     ("raft_contact_distance", "adhesion.raft.gap", Turn::Number),
+    ("perimeter_acceleration", "acceleration.inner_wall", Turn::Number),
+    ("external_perimeter_acceleration", "acceleration.outer_wall", Turn::Number),
+    ("infill_acceleration", "acceleration.infill", Turn::Number),
+    ("solid_infill_acceleration", "acceleration.solid_infill", Turn::Number),
+    ("top_solid_infill_acceleration", "acceleration.top_skin", Turn::Number),
+    ("bridge_acceleration", "acceleration.bridge", Turn::Number),
+    ("first_layer_acceleration", "acceleration.first_layer", Turn::Number),
+    ("slowdown_below_layer_time", "cooling.min_layer_time", Turn::Number),
+    ("min_print_speed", "cooling.min_speed", Turn::Number),
+    ("fan_below_layer_time", "cooling.fan_below_layer_time", Turn::Number),
+    ("full_fan_speed_layer", "filament.fan_full_layer", Turn::Number),
+    ("xy_size_compensation", "walls.horizontal_expansion", Turn::Number),
+    ("bridge_flow_ratio", "skin.bridge_flow", Turn::Number),
+    ("solid_infill_below_area", "infill.solid_below_area", Turn::Number),
+    ("infill_overlap", "infill.overlap", Turn::Share),
+    ("infill_anchor_max", "infill.anchor_max", Turn::Number),
+    ("retract_length_toolchange", "retraction.tool_change_length", Turn::Number),
+    ("wipe", "retraction.wipe", Turn::Switch),
+    ("spiral_vase", "layers.spiral_vase", Turn::Switch),
+    ("ironing", "ironing.enabled", Turn::Switch),
+    ("ironing_flowrate", "ironing.flow", Turn::Percent),
+    ("ironing_spacing", "ironing.spacing", Turn::Number),
+    ("top_fill_pattern", "skin.monotonic", MONOTONIC),
+    ("arc_fitting", "gcode.arc_fitting", ARCS),
 ];
+
+const FAN: FanNames =
+    FanNames { always: "fan_always_on", least: "min_fan_speed", most: "max_fan_speed", automatic: "cooling" };
 
 /// (name, path, name of what it may be a share of).
 const RELATIVE: &[Relative] = &[
@@ -142,22 +171,33 @@ const ASIDE: &[&str] = &[
 pub(super) fn pairs(text: &str) -> Option<Values> {
     let block = text.split_once("; prusaslicer_config = begin").map(|(_, b)| b);
     let block = block.map(|b| b.split("; prusaslicer_config = end").next().unwrap_or(b));
-    let lines = block.unwrap_or(text).lines();
     let pair = |line: &str| {
-        let line = if block.is_some() { line.strip_prefix(';')? } else { line };
         let (key, value) = line.split_once('=')?;
         let key = key.trim();
         let is_name = !key.is_empty() && key.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
         is_name.then(|| (key.to_owned(), value.trim().to_owned()))
     };
-    let found: Values = lines.filter_map(pair).collect();
+    let found: Values = match block {
+        Some(block) => comment_pairs(block.lines()),
+        None => text.lines().filter_map(pair).collect(),
+    };
     let known = found.keys().filter(|k| ROWS.iter().any(|(key, ..)| key == k)).count();
     (block.is_some() || known >= 2).then_some(found)
 }
 
 pub(super) fn import(mut found: Values) -> Imported {
     let mut out = Collector::new();
+    let brim_width = found.get("brim_width").and_then(|text| number(first_of(text)));
+    take_width(&mut found, &mut out);
+    take_fan(&FAN, &mut found, &mut out);
     take_all(ROWS, RELATIVE, &mut found, &mut out);
+    take_thumbnails(&mut found, &mut out);
+    for (asked, most, path) in [
+        ("default_acceleration", "machine_max_acceleration_extruding", "printer.acceleration"),
+        ("travel_acceleration", "machine_max_acceleration_travel", "printer.travel_acceleration"),
+    ] {
+        take_acceleration(asked, most, path, &mut found, &mut out);
+    }
     if let Some(text) = found.remove("bed_shape") {
         take_bed("bed_shape", &text, &mut out);
     }
@@ -172,13 +212,26 @@ pub(super) fn import(mut found: Values) -> Imported {
     take_supports("support_material", &mut found, &mut out);
     take_bed_only("support_material_buildplate_only", &mut found, &mut out);
     take_threshold("support_material_threshold", &mut found, &mut out);
-    take_adhesion(&mut found, &mut out);
+    take_adhesion(brim_width, &mut found, &mut out);
     leave_rest(found, ASIDE, &mut out);
     out.finish("prusaslicer")
 }
 
+/// Walls that have no width of their own have that of all lines.
+fn take_width(found: &mut Values, out: &mut Collector) {
+    let own = "perimeter_extrusion_width";
+    let Some(all) = found.get("extrusion_width").cloned() else { return };
+    let is_chosen = |text: &str| number(first_of(text).trim_end_matches('%')).is_some_and(|x| x > 0.0);
+    if is_chosen(&all) && !found.get(own).is_some_and(|text| is_chosen(text)) {
+        found.remove("extrusion_width");
+        if let Some(zero) = found.insert(own.to_owned(), all) {
+            out.leave("extrusion_width", &zero, "stands for the walls' width, which is 0");
+        }
+    }
+}
+
 /// One kind of base layer here; a raft goes before a brim, a brim before a skirt.
-fn take_adhesion(found: &mut Values, out: &mut Collector) {
+fn take_adhesion(brim_width: Option<f64>, found: &mut Values, out: &mut Collector) {
     let mut taken = false;
     let mut settle = |key: &str, text: &str, kind: &str, out: &mut Collector| {
         let is_first = !std::mem::replace(&mut taken, true);
@@ -196,8 +249,7 @@ fn take_adhesion(found: &mut Values, out: &mut Collector) {
     }
     if let Some(text) = found.remove("brim_type") {
         let side = brim_side(&text);
-        let width = found.get("brim_width").and_then(|t| number(first_of(t)));
-        if let (Some(side), false) = (side, width == Some(0.0))
+        if let (Some(side), false) = (side, brim_width == Some(0.0))
             && settle("brim_type", &text, "brim", out)
         {
             out.map("brim_type", &text, "adhesion.brim.side", Value::from(side));

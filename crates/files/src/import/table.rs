@@ -14,6 +14,12 @@ pub(crate) enum Turn {
     Number,
     /// Percent, with or without its sign, to a share.
     Percent,
+    /// Percent with its sign to a share; a plain number is a length.
+    Share,
+    /// On or off.
+    Switch,
+    /// On with one of these words, off with another one.
+    Is(&'static [&'static str]),
     /// A word stands for another.
     Word(&'static [(&'static str, &'static str)]),
     /// Text stays.
@@ -84,6 +90,100 @@ pub(crate) fn take_threshold(key: &str, found: &mut Values, out: &mut Collector)
     }
 }
 
+/// Names of what drives the fan.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FanNames {
+    /// Keeps it on at its least speed on layers that take their time.
+    pub(crate) always: &'static str,
+    /// Its least speed, percent.
+    pub(crate) least: &'static str,
+    /// Its speed on short layers, percent.
+    pub(crate) most: &'static str,
+    /// Slows down short layers, and blows more on them.
+    pub(crate) automatic: &'static str,
+}
+
+/// The fan: a speed for all layers and one for short ones.
+pub(crate) fn take_fan(names: &FanNames, found: &mut Values, out: &mut Collector) {
+    let always = found.remove(names.always);
+    let automatic = found.remove(names.automatic);
+    let (least, most) = (found.remove(names.least), found.remove(names.most));
+    let (usual, short) = ("filament.fan_speed", "filament.max_fan_speed");
+    let is_off = |text: &Option<String>| text.as_deref().and_then(switch) == Some(false);
+    match (&least, is_off(&always)) {
+        (Some(text), false) => take(&(names.least, usual, Turn::Percent), text, out),
+        (Some(text), true) => {
+            out.change(
+                names.least,
+                text,
+                usual,
+                Value::from(0.0),
+                "the fan rests on layers that take their time",
+            );
+        }
+        (None, _) => {}
+    }
+    if let Some(text) = &most {
+        // Alone it is all that is known of the fan.
+        let path = if least.is_some() { short } else { usual };
+        match is_off(&automatic) {
+            true if least.is_some() => out.leave(names.most, text, "automatic cooling is switched off"),
+            _ => take(&(names.most, path, Turn::Percent), text, out),
+        }
+    }
+    if let Some(text) = automatic.filter(|text| switch(text) == Some(false)) {
+        let why = "short layers are not slowed down";
+        out.change(names.automatic, &text, "cooling.min_layer_time", Value::from(0.0), why);
+        found.retain(|key, _| !["slowdown_below_layer_time", "slow_down_layer_time"].contains(&key.as_str()));
+    }
+}
+
+/// Sizes of thumbnails, each with its format or with `format` for all.
+pub(crate) fn take_thumbnails(found: &mut Values, out: &mut Collector) {
+    let format = found.remove("thumbnails_format").unwrap_or_else(|| "PNG".to_owned());
+    let Some(text) = found.remove("thumbnails") else { return };
+    let sizes: Vec<String> = text
+        .split(',')
+        .map(str::trim)
+        .filter(|size| !size.is_empty())
+        .map(|size| if size.contains('/') { size.to_owned() } else { format!("{size}/{format}") })
+        .collect();
+    let is_known = |size: &String| {
+        let (pixels, format) = size.split_once('/').unwrap_or_default();
+        let sides = pixels.split_once('x').map(|(x, y)| [x, y]).unwrap_or_default();
+        ["PNG", "QOI"].contains(&format)
+            && sides.iter().all(|side| !side.is_empty() && side.bytes().all(|b| b.is_ascii_digit()))
+    };
+    match sizes.iter().all(is_known) {
+        true => out.map("thumbnails", &text, "gcode.thumbnails", Value::from(sizes.join(", "))),
+        false => out.leave("thumbnails", &text, "only PNG and QOI are written; left as it is"),
+    }
+}
+
+/// The acceleration of all beads: what the profile asks for goes before what the machine can do.
+pub(crate) fn take_acceleration(
+    asked: &'static str,
+    most: &'static str,
+    path: &'static str,
+    found: &mut Values,
+    out: &mut Collector,
+) {
+    let is_asked = |text: &String| number(first_of(text)).is_some_and(|x| x > 0.0);
+    match found.remove(asked) {
+        Some(text) if is_asked(&text) => {
+            take(&(asked, path, Turn::Number), &text, out);
+            if let Some(limit) = found.remove(most) {
+                out.leave(most, &limit, &format!("{asked} goes before it"));
+            }
+        }
+        Some(text) => out.leave(asked, &text, "chosen by the slicer; left as it is"),
+        None => {}
+    }
+    if let Some(limit) = found.remove(most) {
+        take(&(most, path, Turn::Number), &limit, out);
+    }
+}
+
 /// Our side of a brim of this type; `None` for no brim.
 pub(crate) fn brim_side(brim_type: &str) -> Option<&'static str> {
     match brim_type {
@@ -110,7 +210,12 @@ pub(crate) fn take(row: &Row, text: &str, out: &mut Collector) {
                 None => out.leave(key, text, &format!("{path}: nothing here stands for it; left as it is")),
             }
         }
-        Turn::Number | Turn::Percent => number_by_row(row, text, out),
+        Turn::Switch => match switch(text) {
+            Some(on) => out.map(key, text, path, Value::from(on)),
+            None => out.leave(key, text, "neither on nor off; left as it is"),
+        },
+        Turn::Is(words) => out.map(key, text, path, Value::from(words.contains(&text))),
+        Turn::Number | Turn::Percent | Turn::Share => number_by_row(row, text, out),
     }
 }
 
@@ -123,12 +228,14 @@ fn number_by_row(&(key, path, turn): &Row, text: &str, out: &mut Collector) {
     };
     let value = match turn {
         Turn::Percent => Value::from(thousandths(value / 100.0)),
+        Turn::Share if is_percent => Value::from(thousandths(value / 100.0)),
+        Turn::Share => return out.leave(key, text, "a length, and a share here; left as it is"),
         _ if is_percent => return out.leave(key, text, "relative to another value; left as it is"),
         _ => Value::from(value),
     };
     match is_one(text) {
         true => out.map(key, text, path, value),
-        false => out.change(key, text, path, value, "the first of several tools"),
+        false => out.change(key, text, path, value, "the first of several values"),
     }
 }
 
