@@ -1,15 +1,19 @@
 // What the engine has to say of a sliced part, for people at a terminal.
 import type { Report, Warning } from '../../www/src/generated/report.ts';
 
-/** Lines at most; the report has all. */
-const MOST = 20;
+/** Lines of one kind at most; the report has all. */
+const MOST = 3;
 
 /** One line for each remark: words, place, and the options that would mend it. */
 export function remarkLines(report: string): string[] {
   const { warnings } = JSON.parse(report) as Pick<Report, 'warnings'>;
-  const lines = warnings.slice(0, MOST).map(remarkLine);
-  const more = warnings.length - lines.length;
-  return more > 0 ? [...lines, `warning: ${more} more: --report has them all`] : lines;
+  const kinds = new Map<string, Warning[]>();
+  for (const remark of warnings) kinds.set(remark.code, [...(kinds.get(remark.code) ?? []), remark]);
+  return [...kinds].flatMap(([code, remarks]) => {
+    const lines = remarks.slice(0, MOST).map(remarkLine);
+    const more = remarks.length - lines.length;
+    return more > 0 ? [...lines, `warning: ${more} more like these (${code}): --report has them all`] : lines;
+  });
 }
 
 function remarkLine({ message, layer, at, fix }: Warning): string {
