@@ -42,6 +42,7 @@ fn codes(found: &[Warning]) -> Vec<&str> {
         "lost_wall",
         "overhang",
         "long_bridge",
+        "prime_line",
     ];
     found.iter().map(|w| w.code.as_str()).filter(|c| ours.contains(c)).collect()
 }
@@ -84,9 +85,26 @@ fn fixes_mend_what_they_are_for() {
 #[test]
 fn a_part_in_a_forbidden_zone_is_told_with_its_place() {
     // The cube stands at 107.5 to 112.5; the zone covers its left half.
-    let found = warnings(&common::cube(5.0), &["printer.forbidden=[[0,0,5,5],[100,100,110,120]]"]);
+    let found = warnings(&common::cube(5.0), &["printer.forbidden=[[0,0,4,2],[100,100,110,120]]"]);
     assert_eq!(codes(&found), ["forbidden_zone"]);
     assert_eq!(found.iter().find(|w| w.code == "forbidden_zone").and_then(|w| w.at), Some([108.75, 110.0]));
+}
+
+#[test]
+fn a_part_on_the_prime_line_is_told() {
+    // The line runs from (5, 3) to (85, 3); the plate begins at 2.5.
+    let plate = common::cuboid(Vec3::ZERO, vec3(215.0, 215.0, 0.4));
+    let found = warnings(&plate, &["adhesion.kind=none"]);
+    assert_eq!(codes(&found), ["prime_line"]);
+    let told = found.iter().find(|w| w.code == "prime_line").expect("told");
+    assert_eq!((told.at, &told.fix[..]), (Some([45.0, 3.0]), &["printer.prime_length=0".to_owned()][..]));
+    assert!(codes(&warnings(&plate, &["adhesion.kind=none", "printer.prime_length=0"])).is_empty());
+    // Start code that fills the nozzle itself goes elsewhere.
+    let own = "printer.start_gcode=\"G28\\nM109 S200\\nG1 X0 Y-3 Z1\\nG1 X60 E9\"";
+    assert!(codes(&warnings(&plate, &["adhesion.kind=none", own])).is_empty());
+    let found = warnings(&common::cube(5.0), &["printer.forbidden=[[60,0,80,5]]"]);
+    assert_eq!(codes(&found), ["prime_line"]);
+    assert!(found.iter().any(|w| w.message.ends_with("through a zone where this printer must not print")));
 }
 
 #[test]

@@ -9,6 +9,7 @@ use super::{
     FILAMENT_STEPS, FilamentOptions, GcodeError, GcodeOptions, LayerSummary, Limits, Move, Place, RoleUse,
     filament_area, label, move_times,
 };
+use crate::polygon::DVec2;
 use crate::region::{Bead, Role};
 use std::collections::BTreeMap;
 
@@ -182,6 +183,15 @@ struct Stop {
     text: String,
     /// Seconds of the moves and of those in the text.
     time_s: f64,
+}
+
+/// From where to where the line runs that fills the nozzle; `None` if there is none, or the start code
+/// extrudes something itself.
+pub fn prime_line(options: &GcodeOptions) -> Option<[DVec2; 2]> {
+    let facts = PrintFacts { layer_count: 1, first_layer_height: 0.0, print_height: 0.0 };
+    let extrudes = follow(&start_code(options, facts).ok()?, Place::default(), 0).filament > 0;
+    let [from, to] = options.printer.prime_line(PRIME_MARGIN);
+    (!extrudes && to.x > from.x).then_some([from, to])
 }
 
 /// Follows the nozzle from stop to stop and adds up.

@@ -40,7 +40,7 @@ pub use estimate::{Limits, move_times};
 pub use events::{EventKind, LayerEvent, check_output, event_layers};
 pub use extrude::filament_area;
 pub use flavor::{Flavor, ObjectLabels};
-pub use join::{FileNotes, Joined, Piece, Totals, assemble, format_duration, join};
+pub use join::{FileNotes, Joined, Piece, Totals, assemble, format_duration, join, prime_line};
 pub use label::{LabelledObject, labelled_objects};
 pub use options::{
     AccelerationOptions, BedShape, FilamentOptions, GcodeOptions, Origin, OutputOptions, PrinterOptions,

@@ -7,6 +7,7 @@ pub use places::Finding;
 pub(super) use places::{Findings, told};
 
 use super::Warning;
+use crate::gcode;
 use crate::polygon::measure::Bounds;
 use crate::polygon::{DVec2, PolygonSet};
 use crate::settings::Settings;
@@ -28,6 +29,7 @@ pub(super) fn check(settings: &Settings, stands: &[Stand]) -> Vec<Warning> {
     found.extend(arcs(settings));
     found.extend(stands.iter().flat_map(|it| forbidden(settings, it.footprint)));
     found.extend(stands.iter().flat_map(|it| off_bed(settings, it)));
+    found.extend(prime_line(settings, stands));
     found
 }
 
@@ -92,12 +94,33 @@ fn pressure_advance(settings: &Settings) -> Option<Warning> {
     })
 }
 
+/// Where two boxes overlap.
+fn meet(a: Bounds, b: Bounds) -> Option<DVec2> {
+    let (low, high) = (a.min.max(b.min), a.max.min(b.max));
+    low.cmplt(high).all().then_some((low + high) / 2.0)
+}
+
+/// Boxes of the bed where nothing may be printed.
+fn forbidden_zones(settings: &Settings) -> impl Iterator<Item = Bounds> {
+    let zones = settings.printer.forbidden.iter();
+    zones.map(|&[x0, y0, x1, y1]| Bounds { min: DVec2::new(x0, y0), max: DVec2::new(x1, y1) })
+}
+
+/// A prime line that a model would be printed on, or that crosses a forbidden zone.
+fn prime_line(settings: &Settings, stands: &[Stand]) -> Option<Warning> {
+    let ends = gcode::prime_line(&settings.gcode_options())?;
+    let half = DVec2::splat(settings.printer.nozzle_diameter / 2.0);
+    let line = Bounds { min: ends[0] - half, max: ends[1] + half };
+    let on_part = stands.iter().find_map(|it| meet(it.footprint, line)).map(|at| ("the part", at));
+    let in_zone = || forbidden_zones(settings).find_map(|zone| meet(zone, line));
+    let (what, at) = on_part.or_else(|| Some(("a zone where this printer must not print", in_zone()?)))?;
+    let message = format!("the line that fills the nozzle runs through {what}");
+    Some(Warning::on_layer("prime_line", message, 0, at).fixed_by("printer.prime_length", 0))
+}
+
 /// A model whose box reaches into a forbidden zone.
 fn forbidden(settings: &Settings, model: Bounds) -> Option<Warning> {
-    let reached = settings.printer.forbidden.iter().find_map(|&[x0, y0, x1, y1]| {
-        let (low, high) = (model.min.max(DVec2::new(x0, y0)), model.max.min(DVec2::new(x1, y1)));
-        low.cmplt(high).all().then_some((low + high) / 2.0)
-    })?;
+    let reached = forbidden_zones(settings).find_map(|zone| meet(model, zone))?;
     let message = "the part reaches into a zone of the bed where this printer must not print".to_owned();
     Some(Warning::on_layer("forbidden_zone", message, 0, reached))
 }
