@@ -199,7 +199,10 @@ fn cura_quality_and_extruder() {
         json!({
             "layers": { "height": 0.3 }, "walls": { "count": 2, "width": 0.42 },
             "infill": { "density": 0.18, "pattern": "lines" }, "speed": { "infill": 55.0 },
-            "filament": { "nozzle_temp": 205.0, "bed_temp": 70.0, "fan_first_layers": 2 },
+            "filament": {
+                "nozzle_temp": 205.0, "first_layer_nozzle_temp": 205.0, "bed_temp": 70.0, "first_layer_bed_temp": 70.0,
+                "fan_first_layers": 2
+            },
             "first_layer": { "elephant_foot": 0.2 },
             "support": { "method": "grid", "everywhere": false },
             "adhesion": { "kind": "brim", "brim": { "width": 6.0 } }
@@ -221,6 +224,28 @@ fn cura_machine() {
             "start_gcode": "G28\nM109 S{first_layer_nozzle_temp}\nG1 Z10 F3000\n", "end_gcode": "M104 S0\n"
         } }),
     );
+}
+
+/// Cura's users state thicknesses.
+#[test]
+fn cura_thicknesses() {
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    zip.start_file("fine", SimpleFileOptions::default()).expect("in memory");
+    let text = "[general]\nversion = 4\n\n[values]\nlayer_height = 0.16\nline_width = 0.4\nwall_thickness = 1.2\n\
+                top_bottom_thickness = 0.8\ntop_layers = 7\nxy_offset = -0.03\nacceleration_enabled = False\n\
+                acceleration_print = 900\n";
+    zip.write_all(text.as_bytes()).expect("in memory");
+    let found = import(&zip.finish().expect("in memory").into_inner()).expect("a good profile");
+    assert_settings(
+        &found,
+        json!({
+            "layers": { "height": 0.16 },
+            "walls": { "count": 3, "width": 0.4, "horizontal_expansion": -0.03 },
+            "skin": { "top_layers": 7, "bottom_layers": 5 }
+        }),
+    );
+    assert_eq!(why(&found, "wall_thickness"), "in steps of the line width, 0.4 mm");
+    assert_eq!(why(&found, "acceleration_enabled"), "accelerations are the printer's own");
 }
 
 #[test]
@@ -246,7 +271,7 @@ fn prusa_defaults_have_a_skirt_and_no_brim() {
             "adhesion": { "kind": "skirt", "skirt": { "loops": 1, "distance": 6.0 } }
         }),
     );
-    assert_eq!(why(&found, "extrusion_width"), "stands for the walls' width, which is 0");
+    assert_eq!(why(&found, "extrusion_width"), "stands for the walls' width, which has no value of its own");
 }
 
 #[test]

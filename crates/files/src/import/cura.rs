@@ -212,6 +212,8 @@ pub(super) fn collected(mut found: Values) -> Imported {
         out.leave("acceleration_enabled", &text, "accelerations are the printer's own");
         found.retain(|key, _| !key.starts_with("acceleration_"));
     }
+    take_thicknesses(&mut found, &mut out);
+    take_first_temperatures(&mut found, &mut out);
     take_all(ROWS, &[], &mut found, &mut out);
     if let Some(text) = found.remove("cool_fan_enabled").filter(|text| switch(text) == Some(false)) {
         out.map("cool_fan_enabled", &text, "filament.fan_speed", Value::from(0.0));
@@ -236,6 +238,65 @@ fn take_speed(found: &mut Values, out: &mut Collector) {
     match number(&text) {
         Some(speed) => out.change(key, &text, "speed.infill", Value::from(speed), why),
         None => out.leave(key, &text, "not a number; left as it is"),
+    }
+}
+
+/// Thicknesses of walls and skins, which are numbers of lines and layers here; a number of its own goes before.
+fn take_thicknesses(found: &mut Values, out: &mut Collector) {
+    let value = |key: &str, found: &Values| found.get(key).and_then(|text| number(text)).filter(|x| *x > 0.0);
+    let line = value("wall_line_width", found).or(value("line_width", found));
+    let layer = value("layer_height", found);
+    let rows = [
+        ("wall_thickness", "wall_line_count", "walls.count", line, "line width"),
+        ("top_thickness", "top_layers", "skin.top_layers", layer, "layer height"),
+        ("bottom_thickness", "bottom_layers", "skin.bottom_layers", layer, "layer height"),
+        ("top_bottom_thickness", "top_layers", "skin.top_layers", layer, "layer height"),
+        ("top_bottom_thickness", "bottom_layers", "skin.bottom_layers", layer, "layer height"),
+    ];
+    let mut told = found.clone();
+    for (key, own, path, each, what) in rows {
+        let Some(text) = found.get(key).cloned() else { continue };
+        let why = match (told.contains_key(own), number(&text), each) {
+            (true, ..) => format!("{own} goes before it"),
+            (false, Some(thickness), Some(each)) => {
+                // Dust of binary fractions makes no layer more.
+                let count = (thickness / each - 1e-4).ceil().max(0.0);
+                out.change(
+                    key,
+                    &text,
+                    path,
+                    Value::from(count),
+                    &format!("in steps of the {what}, {each} mm"),
+                );
+                told.insert(own.to_owned(), text);
+                continue;
+            }
+            _ => format!("the profile does not say what the {what} is; left as it is"),
+        };
+        out.leave(key, &text, &why);
+    }
+    for (key, ..) in rows {
+        found.remove(key);
+    }
+}
+
+/// The first layer is as hot as the others if nothing else is said.
+fn take_first_temperatures(found: &mut Values, out: &mut Collector) {
+    for (key, path) in [
+        ("material_print_temperature", "filament.first_layer_nozzle_temp"),
+        ("material_bed_temperature", "filament.first_layer_bed_temp"),
+    ] {
+        if let Some(text) = found.get(key).filter(|_| !found.contains_key(&format!("{key}_layer_0")))
+            && let Some(value) = number(text)
+        {
+            out.change(
+                key,
+                text,
+                path,
+                Value::from(value),
+                "the first layer's too, which has none of its own",
+            );
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use super::prusa::{FLAVORS, MONOTONIC, PATTERNS, SEAMS};
 use super::table::{
     FanNames, Relative, Row, Turn, Values, bed, brim_side, first_of, leave_rest, number, switch, take,
     take_acceleration, take_all, take_bed, take_bed_only, take_fan, take_supports, take_threshold,
-    take_thumbnails,
+    take_thumbnails, take_width,
 };
 use super::{Collector, Imported, comment_pairs};
 use crate::error::FileError;
@@ -166,6 +166,7 @@ pub(super) fn block(text: &str) -> Option<Values> {
 pub(super) fn collected(mut found: Values) -> Imported {
     let mut out = Collector::new();
     let brim_width = found.get("brim_width").and_then(|text| number(first_of(text)));
+    take_width("inner_wall_line_width", "line_width", &mut found, &mut out);
     take_fan(&FAN, &mut found, &mut out);
     take_all(ROWS, RELATIVE, &mut found, &mut out);
     take_thumbnails(&mut found, &mut out);

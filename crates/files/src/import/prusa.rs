@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::code::Placeholders;
 use super::table::{
     FanNames, Relative, Row, Turn, Values, brim_side, first_of, leave_rest, number, take_acceleration,
-    take_all, take_bed, take_bed_only, take_fan, take_supports, take_threshold, take_thumbnails,
+    take_all, take_bed, take_bed_only, take_fan, take_supports, take_threshold, take_thumbnails, take_width,
 };
 use super::{Collector, Imported, comment_pairs};
 
@@ -188,7 +188,7 @@ pub(super) fn pairs(text: &str) -> Option<Values> {
 pub(super) fn import(mut found: Values) -> Imported {
     let mut out = Collector::new();
     let brim_width = found.get("brim_width").and_then(|text| number(first_of(text)));
-    take_width(&mut found, &mut out);
+    take_width("perimeter_extrusion_width", "extrusion_width", &mut found, &mut out);
     take_fan(&FAN, &mut found, &mut out);
     take_all(ROWS, RELATIVE, &mut found, &mut out);
     take_thumbnails(&mut found, &mut out);
@@ -215,19 +215,6 @@ pub(super) fn import(mut found: Values) -> Imported {
     take_adhesion(brim_width, &mut found, &mut out);
     leave_rest(found, ASIDE, &mut out);
     out.finish("prusaslicer")
-}
-
-/// Walls that have no width of their own have that of all lines.
-fn take_width(found: &mut Values, out: &mut Collector) {
-    let own = "perimeter_extrusion_width";
-    let Some(all) = found.get("extrusion_width").cloned() else { return };
-    let is_chosen = |text: &str| number(first_of(text).trim_end_matches('%')).is_some_and(|x| x > 0.0);
-    if is_chosen(&all) && !found.get(own).is_some_and(|text| is_chosen(text)) {
-        found.remove("extrusion_width");
-        if let Some(zero) = found.insert(own.to_owned(), all) {
-            out.leave("extrusion_width", &zero, "stands for the walls' width, which is 0");
-        }
-    }
 }
 
 /// One kind of base layer here; a raft goes before a brim, a brim before a skirt.

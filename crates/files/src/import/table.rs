@@ -184,6 +184,17 @@ pub(crate) fn take_acceleration(
     }
 }
 
+/// Walls whose own width is 0 or missing have that of all lines.
+pub(crate) fn take_width(own: &str, all: &str, found: &mut Values, out: &mut Collector) {
+    let Some(width) = found.get(all).cloned() else { return };
+    let is_chosen = |text: &str| number(first_of(text).trim_end_matches('%')).is_some_and(|x| x > 0.0);
+    if is_chosen(&width) && !found.get(own).is_some_and(|text| is_chosen(text)) {
+        found.remove(all);
+        out.leave(all, &width, "stands for the walls' width, which has no value of its own");
+        found.insert(own.to_owned(), width);
+    }
+}
+
 /// Our side of a brim of this type; `None` for no brim.
 pub(crate) fn brim_side(brim_type: &str) -> Option<&'static str> {
     match brim_type {
