@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::mesh::Mesh;
 use crate::slice::LayerOptions;
 use crate::slice::heights::plan_layers;
+use crate::sort::StableSort;
 
 /// Where the layers are cut, and which of them share a section.
 #[derive(Debug)]
@@ -43,6 +44,44 @@ impl LayerStack {
     /// How many planes lie at `z` or below.
     pub(super) fn planes_up_to(&self, z: f64) -> usize {
         planes_up_to(&self.slice_z, z)
+    }
+}
+
+/// The triangles that cross the planes of one batch of runs after the other, from the top down.
+#[derive(Debug)]
+pub(super) struct Crossing {
+    /// The lowest batch that each triangle crosses.
+    lowest: Vec<u32>,
+    /// The triangles whose highest batch it is.
+    highest: Vec<Vec<u32>>,
+    /// Those that cross the batch asked for last.
+    current: Vec<u32>,
+}
+
+impl Crossing {
+    /// Above the topmost of batches of so many runs.
+    pub(super) fn new(mesh: &Mesh, stack: &LayerStack, runs_a_batch: usize) -> Crossing {
+        let mut lowest = vec![0; mesh.triangles.len()];
+        let mut highest = vec![Vec::new(); stack.runs.len().div_ceil(runs_a_batch)];
+        for (t, triangle) in (0..).zip(&mesh.triangles) {
+            let planes = triangle.map(|v| stack.planes_up_to(f64::from(mesh.vertices[v as usize].z)));
+            let (low, high) =
+                (planes[0].min(planes[1]).min(planes[2]), planes[0].max(planes[1]).max(planes[2]));
+            if low < high {
+                lowest[t as usize] = (stack.run_of(low) / runs_a_batch) as u32;
+                highest[stack.run_of(high - 1) / runs_a_batch].push(t);
+            }
+        }
+        Crossing { lowest, highest, current: Vec::new() }
+    }
+
+    /// Those of the next batch, in mesh order.
+    pub(super) fn next(&mut self) -> &[u32] {
+        let batch = self.highest.len() - 1;
+        self.current.retain(|&t| self.lowest[t as usize] as usize <= batch);
+        self.current.extend(self.highest.pop().unwrap_or_default());
+        self.current.stable_sort_by_key(|&t| t);
+        &self.current
     }
 }
 
@@ -135,6 +174,18 @@ mod tests {
         let stack = LayerStack::new(&mesh(3.0), 1.0);
         assert_eq!(stack.runs[0], 0..10);
         assert_eq!(stack.runs.len(), 11);
+    }
+
+    #[test]
+    fn triangles_come_with_every_batch_they_cross() {
+        let mesh = mesh(3.0);
+        let stack = LayerStack::new(&mesh, 1.0);
+        assert_eq!(stack.runs.len(), 11);
+        // Runs 8 to 10, 4 to 7, then 0 to 3, which hold all of the stick.
+        let mut crossing = Crossing::new(&mesh, &stack, 4);
+        assert_eq!(crossing.next(), [8, 9, 10, 11, 12, 13]);
+        assert_eq!(crossing.next(), [8, 9, 10, 11, 12, 13]);
+        assert_eq!(crossing.next(), [2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13]);
     }
 
     #[test]

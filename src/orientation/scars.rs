@@ -4,8 +4,7 @@ use glam::DVec3;
 
 use super::layers::LayerStack;
 use crate::mesh::Mesh;
-use crate::polygon::strips::Strips;
-use crate::polygon::{DVec2, PolygonSet, dvec2};
+use crate::polygon::{DVec2, dvec2};
 use crate::sort::StableSort;
 
 /// Facets are looked at in patches of about this area, mm2, each touched wholly or not at all.
@@ -46,16 +45,12 @@ impl Scars {
         Scars { patches, touched_mm2: 0.0 }
     }
 
-    /// Looks at the patches of a run, of which `supports` is the support region. Runs come from
-    /// the top down.
-    pub(super) fn look(&mut self, run: usize, supports: &PolygonSet) {
+    /// Looks at the patches of a run; `supports` tells whether a point lies in its support region. Runs come
+    /// from the top down.
+    pub(super) fn look(&mut self, run: usize, supports: impl Fn(DVec2) -> bool) {
         let below = self.patches.partition_point(|patch| (patch.run as usize) < run);
         let patches = self.patches.split_off(below);
-        if patches.is_empty() || supports.is_empty() {
-            return;
-        }
-        let strips = Strips::new(supports);
-        let touched = patches.iter().filter(|patch| strips.contain(patch.at));
+        let touched = patches.iter().filter(|patch| supports(patch.at));
         self.touched_mm2 += touched.map(|patch| patch.area_mm2).sum::<f64>();
     }
 

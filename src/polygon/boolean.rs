@@ -32,6 +32,15 @@ impl PolygonSet {
         run(ClipType::Difference, to_paths(self.contours()), to_paths(other.contours()))
     }
 
+    /// Like [`PolygonSet::difference`] where contours of `self` may overlap, or run to and fro on one line:
+    /// what they wind around counts.
+    pub fn wound_difference(&self, other: &PolygonSet) -> PolygonSet {
+        if !self.is_empty() && !self.may_touch(other) {
+            return unite(self.contours().to_vec());
+        }
+        self.difference(other)
+    }
+
     /// What lies in both.
     pub fn intersection(&self, other: &PolygonSet) -> PolygonSet {
         if self.is_empty() || other.is_empty() || !self.may_touch(other) {

@@ -263,7 +263,7 @@ fn crossing_at(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Option<f64> {
 }
 
 /// Whether two closed segments have a point in common, collinear overlap left aside.
-fn do_cross(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
+pub fn do_cross(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
     let side = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
     side(a, b, c) * side(a, b, d) <= 0.0
         && side(c, d, a) * side(c, d, b) <= 0.0

@@ -13,8 +13,12 @@ pub mod island;
 pub mod measure;
 pub mod offset;
 pub mod raycast;
+pub mod sets;
 pub mod simplify;
+#[cfg(test)]
+pub(crate) mod stars;
 pub mod strips;
+pub mod tiles;
 pub mod trig;
 
 use crate::sort::StableSort;

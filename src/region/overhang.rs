@@ -4,7 +4,7 @@
 //! Deposition Orientation in FDM", equations (2) to (8). Plate supports share [`need`].
 
 use super::reach::Reach;
-use crate::polygon::island::{Island, inner_point};
+use crate::polygon::island::Island;
 use crate::polygon::trig::tan;
 use crate::polygon::{Join, PolygonSet};
 
@@ -46,10 +46,9 @@ pub fn externally_supported(above: &PolygonSet, below: &PolygonSet, step: f64) -
     let overhang = above.difference(below);
     let islands = Island::all_of(&overhang);
     let mut reaching: Vec<bool> = islands.iter().map(|island| reach.is_left_by(island)).collect();
-    let is_open = |(island, reaches): (&Island, &bool)| !reaches && !reach.holds_island(island);
-    if islands.iter().zip(&reaching).any(is_open) {
-        // Distances leave it open: the growth itself decides.
-        mark_reaching(&islands, &above.difference(&permissible_overhang(below, step)), &mut reaching);
+    for (island, reaches) in islands.iter().zip(&mut reaching) {
+        // Where distances leave it open, the growth itself decides.
+        *reaches = *reaches || !reach.holds_island(island) && leaves_growth(island, below, step);
     }
     components(overhang, islands, &reaching)
 }
@@ -63,18 +62,12 @@ pub fn need(above: &PolygonSet, below: &PolygonSet, step: f64, opening: f64) -> 
     above.difference(&permissible_overhang(below, step)).opened(opening, MITRE)
 }
 
-/// Marks the islands of an overhang that hold a piece of `outside`, which lies within them.
-fn mark_reaching(islands: &[Island], outside: &PolygonSet, reaching: &mut [bool]) {
-    for piece in outside.islands() {
-        let point = inner_point(&piece);
-        let around = match islands.len() {
-            1 => Some(0),
-            _ => point.and_then(|p| Island::around(islands, p)),
-        };
-        if let Some(i) = around {
-            reaching[i] = true;
-        }
-    }
+/// Whether a part of the island lies outside the permissible overhang of `below`.
+fn leaves_growth(island: &Island, below: &PolygonSet, step: f64) -> bool {
+    // What lies farther from the island than a mitre and the growth of a cut reach has no say.
+    let near = island.bounds.grown(2.0 * MITRE_LIMIT * (step + SNAP_SLACK_MM));
+    let growth = permissible_overhang(&below.within(near), step);
+    !island.polygon.clone().into_set().difference(&growth).is_empty()
 }
 
 /// The marked islands of `overhang`.
@@ -90,10 +83,28 @@ fn components(overhang: PolygonSet, islands: Vec<Island>, marked: &[bool]) -> Po
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::polygon::stars::hollow_star;
     use crate::polygon::{Contour, dvec2};
+    use proptest::prelude::*;
 
     fn rectangle(x0: f64, y0: f64, x1: f64, y1: f64) -> PolygonSet {
         PolygonSet::rectangle(dvec2(x0, y0), dvec2(x1, y1))
+    }
+
+    proptest! {
+        #[test]
+        fn what_needs_support_is_what_leaves_the_growth(
+            below in hollow_star(),
+            above in hollow_star(),
+            step in 0.01..1.0f64,
+        ) {
+            let grown = permissible_overhang(&below, step);
+            let leaves = |island: &Island| !island.polygon.clone().into_set().difference(&grown).is_empty();
+            let islands = Island::all_of(&above.difference(&below));
+            let expected: f64 = islands.iter().filter(|i| leaves(i)).map(|i| i.polygon.area()).sum();
+            let found = externally_supported(&above, &below, step).area();
+            prop_assert!((found - expected).abs() < 1e-9, "{found} for {expected}");
+        }
     }
 
     #[test]

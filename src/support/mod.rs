@@ -23,6 +23,7 @@ mod report;
 mod section;
 mod spans;
 mod ties;
+mod tile;
 pub mod volumes;
 
 pub use beads::Bead;
