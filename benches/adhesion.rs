@@ -44,8 +44,15 @@ fn adhesion(c: &mut Criterion) {
     let supports = PolygonSet::EMPTY;
     let bed = Bounds { min: DVec2::ZERO, max: dvec2(220.0, 220.0) };
     for (name, outline) in &shapes {
-        let first =
-            FirstLayer { outline, supports: &supports, bed, line_width: 0.5, height: 0.2, next_height: 0.2 };
+        let first = FirstLayer {
+            outline,
+            supports: &supports,
+            bed,
+            closed: &supports,
+            line_width: 0.5,
+            height: 0.2,
+            next_height: 0.2,
+        };
         for kind in AdhesionKind::ALL {
             let options = AdhesionOptions { kind, ..AdhesionOptions::default() };
             c.bench_function(&format!("{name}/{}", kind.name()), |b| {

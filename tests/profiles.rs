@@ -263,6 +263,22 @@ fn assert_moves_safely(id: &str, text: &str) {
     assert!(by_macro || (says("M84") && (says("M107") || says("M106 S0"))), "{id}: {end:?}");
 }
 
+/// A disc nearly as wide as a round bed, and a cube 1 mm beside a zone where nothing may be printed.
+#[test]
+fn base_layers_keep_off_what_is_no_bed() {
+    let printers = profiles("printers");
+    let of = |id: &str| printers.iter().find(|p| p.id == id).expect("a printer");
+    let disc = write_binary(&common::cylinder(88.5, 0.6, 120));
+    for kind in ["skirt", "brim", "raft", "teeth"] {
+        let kind = &format!("adhesion.kind={kind}");
+        let round = settings(&[of("delta")], &[kind, "printer.prime_length=0"]);
+        assert_stays_on_bed(kind, &sliced(&disc, round.clone()), &round);
+        // The cube stands at 105 to 115.
+        let zoned = settings(&[of("ender3")], &[kind, "printer.forbidden=[[90,10,104,220]]"]);
+        assert_stays_on_bed(kind, &sliced(&sized_cube(), zoned.clone()), &zoned);
+    }
+}
+
 /// On a delta the origin is the centre, and corners of the square around the bed are no place to print.
 #[test]
 fn the_delta_prints_around_its_origin() {

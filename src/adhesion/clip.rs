@@ -1,7 +1,9 @@
 //! Lines cut to what may be printed on: the bed, or an area.
 
+use super::{AdhesionWarning, Foundation, WarningCode};
 use crate::polygon::measure::Bounds;
-use crate::polygon::{DVec2, PolygonSet, by_x_then_y};
+use crate::polygon::{DVec2, Join, PolygonSet, by_x_then_y};
+use crate::region::{Path, Width};
 use crate::sort::StableSort;
 
 /// A line, closed or open; a closed one does not repeat its first point.
@@ -45,7 +47,6 @@ pub(super) fn to_area(line: Line, area: &PolygonSet) -> Vec<Line> {
     if line.closed {
         points.extend(points.first().copied());
     }
-    let length = |points: &[DVec2]| points.windows(2).map(|w| w[0].distance(w[1])).sum::<f64>();
     let mut pieces = area.clip_lines(std::slice::from_ref(&points));
     let kept: f64 = pieces.iter().map(|p| length(p)).sum();
     // Points come back rounded to the grid, by up to half a step at each end of an edge.
@@ -54,6 +55,67 @@ pub(super) fn to_area(line: Line, area: &PolygonSet) -> Vec<Line> {
     }
     pieces.stable_sort_by(|p, q| by_x_then_y(p[0], q[0]));
     joined(pieces, line.closed)
+}
+
+/// Cuts off what beads would reach into `closed`, a part of the bed's box.
+pub(super) fn keep_off(closed: &PolygonSet, bed: Bounds, foundation: &mut Foundation) {
+    if closed.is_empty() {
+        return;
+    }
+    let mut open = OpenBed { closed, bed, by_width: Vec::new(), cut_at: None };
+    let raft = foundation.raft.iter_mut().map(|layer| &mut layer.paths);
+    for paths in foundation.layers.iter_mut().chain(raft) {
+        *paths = std::mem::take(paths).into_iter().flat_map(|path| open.cut(path)).collect();
+    }
+    if let Some(at) = open.cut_at {
+        let message = "printer.forbidden, printer.bed_shape: what holds the part is cut off there".to_owned();
+        foundation.warnings.push(AdhesionWarning::new(WarningCode::AdhesionOffBed, message, Some(at)));
+    }
+}
+
+/// Where beads may run.
+struct OpenBed<'a> {
+    closed: &'a PolygonSet,
+    bed: Bounds,
+    /// Where the lines of beads so wide may run.
+    by_width: Vec<(f64, PolygonSet)>,
+    /// A point that was cut off.
+    cut_at: Option<DVec2>,
+}
+
+impl OpenBed<'_> {
+    fn cut(&mut self, path: Path) -> Vec<Path> {
+        let width = match &path.width {
+            Width::Uniform(width) => *width,
+            Width::Varying(widths) => widths.iter().copied().fold(0.0, f64::max),
+        };
+        let line = Line { points: path.points.clone(), closed: path.closed };
+        let pieces = to_area(line.clone(), self.area(width));
+        if pieces.as_slice() == std::slice::from_ref(&line) {
+            return vec![path];
+        }
+        let beside = path.points.iter().copied().find(|&p| !self.area(width).contains(p));
+        self.cut_at = self.cut_at.or(beside);
+        // Crumbs hold nothing.
+        let pieces = pieces.into_iter().filter(|piece| length(&piece.points) > width);
+        let bead = |piece: Line| Path { closed: piece.closed, ..Path::open(path.role, piece.points, width) };
+        pieces.map(bead).collect()
+    }
+
+    fn area(&mut self, width: f64) -> &PolygonSet {
+        let known = self.by_width.iter().position(|(w, _)| *w == width);
+        let at = known.unwrap_or_else(|| {
+            let bed = PolygonSet::rectangle(self.bed.min, self.bed.max);
+            let open = bed.difference(&self.closed.offset(width / 2.0, Join::WALL));
+            self.by_width.push((width, open));
+            self.by_width.len() - 1
+        });
+        &self.by_width[at].1
+    }
+}
+
+fn length(points: &[DVec2]) -> f64 {
+    points.windows(2).map(|w| w[0].distance(w[1])).sum()
 }
 
 /// A length that rounding to the grid may add or take at one point, mm.

@@ -40,8 +40,10 @@ pub struct FirstLayer<'a> {
     pub outline: &'a PolygonSet,
     /// Area of the supports that stand on the bed; may be empty.
     pub supports: &'a PolygonSet,
-    /// The printable area of the bed.
+    /// The box around the bed.
     pub bed: Bounds,
+    /// What of it nothing may be printed on: corners beside a round bed, forbidden zones.
+    pub closed: &'a PolygonSet,
     /// `first_layer.line_width`, mm: beads of skirt and teeth.
     pub line_width: f64,
     /// `layers.first_height`, mm.
@@ -162,6 +164,7 @@ fn lay(
         AdhesionKind::Raft => raft::raft(first, ground, &options.raft),
         AdhesionKind::Teeth => teeth::teeth(first, ground, &options.teeth)?,
     };
+    clip::keep_off(first.closed, first.bed, &mut foundation);
     figures::measure(first, ground, &mut foundation);
     foundation.warnings.extend(off_bed(first, ground));
     Ok(foundation)

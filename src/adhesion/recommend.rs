@@ -114,8 +114,15 @@ mod tests {
     fn of(outline: &PolygonSet, warping: Warping) -> Recommendation {
         let supports = PolygonSet::default();
         let bed = Bounds { min: DVec2::ZERO, max: dvec2(220.0, 220.0) };
-        let first =
-            FirstLayer { outline, supports: &supports, bed, line_width: 0.5, height: 0.2, next_height: 0.2 };
+        let first = FirstLayer {
+            outline,
+            supports: &supports,
+            bed,
+            closed: &supports,
+            line_width: 0.5,
+            height: 0.2,
+            next_height: 0.2,
+        };
         recommend(&first, warping)
     }
 

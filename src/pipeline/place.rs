@@ -9,7 +9,7 @@ use super::sequence;
 use crate::gcode::{BedShape, PrinterOptions};
 use crate::mesh::{Box3, Edit, Mesh, TransformError};
 use crate::polygon::measure::Bounds;
-use crate::polygon::{DVec2, trig};
+use crate::polygon::{Contour, DVec2, PolygonSet, dvec2, trig};
 use crate::settings::Settings;
 
 /// How far a model may stand over the edge of the bed by rounding, mm.
@@ -160,6 +160,27 @@ fn stand_of(placed: &Mesh) -> Stand {
 fn stands_on_bed(mesh: &Mesh, printer: &PrinterOptions) -> bool {
     printer.bed_shape == BedShape::Rectangle
         || mesh.vertices.iter().all(|v| printer.is_on_bed(v.as_dvec3().truncate()))
+}
+
+/// Corners of the polygon that stands for a round bed, inside it by up to 0.02 mm on a bed of 500 mm.
+const ROUND_CORNERS: u32 = 360;
+
+/// What of the box around the bed nothing may be printed on.
+pub(super) fn closed_bed(printer: &PrinterOptions) -> PolygonSet {
+    let Bounds { min, max } = printer.bed();
+    let zones = printer.forbidden.iter();
+    let zones = zones.map(|&[x0, y0, x1, y1]| PolygonSet::rectangle(dvec2(x0, y0), dvec2(x1, y1)));
+    let mut closed = PolygonSet::union_all(&zones.collect::<Vec<_>>());
+    if printer.bed_shape == BedShape::Round {
+        let corner = |k: u32| {
+            let (sin, cos) = trig::sin_cos(f64::from(k) * std::f64::consts::TAU / f64::from(ROUND_CORNERS));
+            (min + max) / 2.0 + dvec2(cos, sin) * (max - min) / 2.0
+        };
+        let bed = Contour::new((0..ROUND_CORNERS).map(corner).collect());
+        let around = PolygonSet::rectangle(min, max).difference(&PolygonSet::from_contours(vec![bed]));
+        closed = closed.union(&around);
+    }
+    closed
 }
 
 /// Steps in which turning is tried, degrees.

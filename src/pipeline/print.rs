@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use super::place::closed_bed;
 use super::range::{self, PRINT_RESOLUTION, RangePlan};
 use super::report::{SupportReport, Warning};
 use super::{Clock, JobError, adhesion_warning, support_warning, tools};
@@ -37,6 +38,8 @@ pub struct Print {
     name: String,
     settings: Settings,
     mesh: Mesh,
+    /// See [`FirstLayer::closed`].
+    closed: PolygonSet,
     /// Lowest and highest z of each triangle, so that a range finds its triangles in one pass.
     spans: Vec<[f32; 2]>,
     specs: Vec<LayerSpec>,
@@ -122,6 +125,7 @@ impl Print {
             laid: Vec::new(),
             after: Vec::new(),
             teeth: None,
+            closed: closed_bed(&settings.printer),
             settings,
             mesh,
         })
@@ -297,7 +301,7 @@ impl Print {
         if kind == AdhesionKind::Raft { section } else { draw_in(&section, &self.settings.first_layer) }
     }
 
-    /// The printable area of the bed.
+    /// The box around the bed.
     pub fn bed(&self) -> Bounds {
         self.settings.printer.bed()
     }
@@ -318,7 +322,7 @@ impl Print {
     }
 
     pub(super) fn first_layer<'a>(
-        &self,
+        &'a self,
         outline: &'a PolygonSet,
         supports: &'a PolygonSet,
     ) -> FirstLayer<'a> {
@@ -327,6 +331,7 @@ impl Print {
             outline,
             supports,
             bed: self.bed(),
+            closed: &self.closed,
             line_width: first_layer.line_width,
             height: layers.first_height,
             next_height: self.specs.get(1).map_or(layers.height, |spec| spec.height),
