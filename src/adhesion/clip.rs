@@ -67,7 +67,8 @@ pub(super) fn keep_off(closed: &PolygonSet, bed: Bounds, foundation: &mut Founda
     for paths in foundation.layers.iter_mut().chain(raft) {
         *paths = std::mem::take(paths).into_iter().flat_map(|path| open.cut(path)).collect();
     }
-    if let Some(at) = open.cut_at {
+    let is_told = foundation.warnings.iter().any(|it| it.code == WarningCode::AdhesionOffBed);
+    if let Some(at) = open.cut_at.filter(|_| !is_told) {
         let message = "printer.forbidden, printer.bed_shape: what holds the part is cut off there".to_owned();
         foundation.warnings.push(AdhesionWarning::new(WarningCode::AdhesionOffBed, message, Some(at)));
     }
