@@ -1,7 +1,7 @@
 //! Sparse infill: density, staying inside, nothing laid twice, for every pattern.
 #![cfg(not(target_arch = "wasm32"))]
 
-use foothold::polygon::{Contour, DVec2, Join, PolygonSet, dvec2};
+use foothold::polygon::{Contour, DVec2, PolygonSet, dvec2};
 use foothold::region::{Bead, Path};
 use foothold::toolpath::infill::{InfillLayer, InfillOptions, InfillPattern, fill_sparse, true_lines};
 use proptest::prelude::*;
@@ -44,7 +44,7 @@ fn density_found(side: f64, options: &InfillOptions) -> f64 {
 #[test]
 fn density_is_true_on_squares() {
     let mut wrong = Vec::new();
-    for (side, percents) in [(100.0, vec![5, 10, 15, 20, 40, 60]), (40.0, vec![10, 15, 20, 40])] {
+    for (side, percents) in [(100.0, vec![5, 10, 15, 20, 40, 60]), (40.0, vec![5, 10, 15, 20, 40, 60])] {
         for pattern in PATTERNS {
             for &percent in &percents {
                 let density = f64::from(percent) / 100.0;
@@ -107,8 +107,31 @@ fn samples(path: &Path, step: f64) -> Vec<DVec2> {
     path.points.windows(2).flat_map(between).collect()
 }
 
+/// How far corners of offset outlines may wander where they are snapped to the grid of 1e-4 mm and meet at
+/// small angles, mm.
+const SNAP: f64 = 0.005;
+
+/// How far a point lies inside an area's border; negative outside.
+fn depth(area: &PolygonSet, p: DVec2) -> f64 {
+    let edges = area.contours().iter().flat_map(|c| c.edges());
+    let distance = |(a, b): (DVec2, DVec2)| {
+        let share = (p - a).dot(b - a) / (b - a).length_squared();
+        p.distance(a.lerp(b, share.clamp(0.0, 1.0)))
+    };
+    let least = edges.map(distance).fold(f64::INFINITY, f64::min);
+    if area.contains(p) { least } else { -least }
+}
+
+/// As many cases as `PROPTEST_CASES` says, or a tenth of the heavy set.
+fn cases() -> ProptestConfig {
+    let long = std::env::var_os("FOOTHOLD_LONG").is_some();
+    let of_environment = std::env::var_os("PROPTEST_CASES").is_some();
+    let usual = ProptestConfig::default();
+    if of_environment { usual } else { ProptestConfig { cases: if long { 1000 } else { 100 }, ..usual } }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(if std::env::var_os("FOOTHOLD_LONG").is_some() { 1000 } else { 100 }))]
+    #![proptest_config(cases())]
 
     #[test]
     fn lines_stay_inside_their_area_and_overlap(
@@ -116,10 +139,10 @@ proptest! {
     ) {
         let options = InfillOptions { density, pattern: PATTERNS[pattern], ..InfillOptions::default() };
         let paths = fill_sparse(&area, BEAD, InfillLayer { index, z }, &options);
-        let reach = options.overlap * BEAD.width - BEAD.width / 2.0;
-        let allowed = area.offset(reach + 1e-3, Join::Mitre { limit: 5.0 });
+        let least = BEAD.width / 2.0 - options.overlap * BEAD.width;
         for p in paths.iter().flat_map(|p| samples(p, 0.5)) {
-            prop_assert!(allowed.contains(p), "{p} is outside");
+            let depth = depth(&area, p);
+            prop_assert!(depth > least - SNAP, "{p} lies {depth} mm inside, not {least}");
         }
     }
 

@@ -99,7 +99,10 @@ pub fn fill_sparse(area: &PolygonSet, bead: Bead, layer: InfillLayer, options: &
 /// Where the centre lines of sparse beads may run: beads overlap the area's border by this share of
 /// their width, and places too narrow for one are left out.
 fn centre_lines(area: &PolygonSet, bead: Bead, overlap: f64) -> PolygonSet {
-    area.offset(-bead.width / 2.0, Join::WALL).offset(bead.width * overlap, Join::WALL)
+    let (half, into_wall) = (bead.width / 2.0, bead.width * overlap);
+    let opened = area.offset(-half, Join::WALL).offset(into_wall, Join::WALL);
+    // At a corner that is cut off by a short edge the mitre would run on beyond it.
+    opened.intersection(&area.offset(into_wall - half, Join::WALL))
 }
 
 /// The pattern's lines inside the area, each on its own.
@@ -132,12 +135,21 @@ fn pattern_pieces(
 /// something to lie on.
 const FARTHEST_APART: f64 = 1.25;
 
+/// The same for loops, whose first runs along the walls: even then no gap is wider than a grid's.
+const LOOPS_FARTHEST_APART: f64 = 2.0;
+
 /// Density counts as met within this share.
 const CLOSE_ENOUGH: f64 = 0.01;
+
+/// Density is missed beyond this share: all distances are tried then.
+const MISSED: f64 = 0.03;
 
 /// Distances of lines and longest joins tried. Lines are counted from the bed's origin, so that a part
 /// gets a few more or less with every change; the best try is taken.
 const TRIES: usize = 6;
+
+/// Evenly spread distances tried where a change of a few percent makes a line more or less.
+const EVEN_TRIES: u32 = 16;
 
 /// How to lay lines so that together with what joins them they take up `options.density` of the given
 /// areas, which stand for the whole print.
@@ -147,40 +159,71 @@ const TRIES: usize = 6;
 pub fn true_lines(areas: &[PolygonSet], bead: Bead, options: &InfillOptions) -> InfillOptions {
     let wanted = options.density;
     let total: f64 = areas.iter().map(PolygonSet::area).sum();
-    let mut lines = options.clone();
     if total <= 0.0 || wanted <= 0.0 {
-        return lines;
+        return options.clone();
     }
-    let (least, most) = (wanted / FARTHEST_APART, (wanted * FARTHEST_APART).min(1.0));
-    let share_of =
-        |lines: &InfillOptions| laid_length(areas, lines, bead) * bead.spacing() / (wanted * total);
-    let mut best = (f64::INFINITY, options.clone());
-    let mut offer = |lines: &InfillOptions, share: f64| {
-        if (share - 1.0).abs() < best.0 {
-            best = ((share - 1.0).abs(), lines.clone());
-        }
+    let farthest = match options.pattern {
+        InfillPattern::Concentric => LOOPS_FARTHEST_APART,
+        _ => FARTHEST_APART,
     };
-    let mut share = share_of(&lines);
-    offer(&lines, share);
-    for _ in 0..TRIES {
-        let next = (lines.density / share).clamp(least, most);
-        if (share - 1.0).abs() < CLOSE_ENOUGH || next == lines.density {
-            break;
-        }
-        lines.density = next;
-        share = share_of(&lines);
-        offer(&lines, share);
-    }
+    let (least, most) = (wanted / farthest, (wanted * farthest).min(1.0));
+    let mut tries = Tries { areas, bead, wanted: wanted * total, best: (f64::INFINITY, options.clone()) };
+    let mut lines = options.clone();
+    let share = tries.meet(&mut lines, least, most);
     if lines.density == least && share > 1.0 + CLOSE_ENOUGH {
         let (mut low, mut high) = (0.0, options.anchor_max);
         for _ in 0..TRIES {
             lines.anchor_max = (low + high) / 2.0;
-            let share = share_of(&lines);
-            offer(&lines, share);
-            if share > 1.0 { high = lines.anchor_max } else { low = lines.anchor_max }
+            if tries.share(&lines) > 1.0 { high = lines.anchor_max } else { low = lines.anchor_max }
+        }
+        if tries.best.0 > CLOSE_ENOUGH {
+            // Joins are all equally long: without them lines may lie closer again, and joins be shorter.
+            lines.anchor_max = low / farthest;
+            tries.meet(&mut lines, least, most);
         }
     }
-    best.1
+    if tries.best.0 > MISSED {
+        for k in 0..=EVEN_TRIES {
+            lines.density = least + (most - least) * f64::from(k) / f64::from(EVEN_TRIES);
+            tries.share(&lines);
+        }
+    }
+    tries.best.1
+}
+
+/// Ways to lay lines, and the one that comes closest to the density wanted.
+struct Tries<'a> {
+    areas: &'a [PolygonSet],
+    bead: Bead,
+    /// Area that the lines shall take up, mm2.
+    wanted: f64,
+    /// How far the best is off, as a share, and what it is.
+    best: (f64, InfillOptions),
+}
+
+impl Tries<'_> {
+    /// What these lines take up, as a share of what is wanted.
+    fn share(&mut self, lines: &InfillOptions) -> f64 {
+        let share = laid_length(self.areas, lines, self.bead) * self.bead.spacing() / self.wanted;
+        if (share - 1.0).abs() < self.best.0 {
+            self.best = ((share - 1.0).abs(), lines.clone());
+        }
+        share
+    }
+
+    /// Changes the distance of lines until they take up what is wanted; returns the share they do.
+    fn meet(&mut self, lines: &mut InfillOptions, least: f64, most: f64) -> f64 {
+        let mut share = self.share(lines);
+        for _ in 0..TRIES {
+            let next = (lines.density / share).clamp(least, most);
+            if (share - 1.0).abs() < CLOSE_ENOUGH || next == lines.density {
+                break;
+            }
+            lines.density = next;
+            share = self.share(lines);
+        }
+        share
+    }
 }
 
 /// Length of the lines and joins in these areas, mm; the areas' heights are spread over a period of the
