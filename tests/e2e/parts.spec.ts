@@ -138,6 +138,23 @@ test('a part has settings of its own: marked, undone, kept, and printed', async 
   await expect(part(page, 'round.stl')).not.toContainText('Own settings');
   await page.getByRole('button', { name: 'Redo' }).click();
   await expect(part(page, 'round.stl')).toContainText('Own settings');
+  const exported = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Export' }).click();
+  const settings = readFileSync(await (await exported).path(), 'utf8');
+  expect(JSON.parse(settings)).toEqual({ models: { round: { infill: { density: 1 } } } });
+  await page.getByRole('button', { name: 'Undo' }).click();
+  await expect(part(page, 'round.stl')).not.toContainText('Own settings');
+  await openFile(page, { name: 'my.json', bytes: settings }, 'Import');
+  await expect(part(page, 'round.stl')).toContainText('Own settings');
+  const saved = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Save as STL' }).click();
+  const stl = await saved;
+  expect(stl.suggestedFilename()).toBe('cube_placed.stl');
+  const bytes = readFileSync(await stl.path());
+  // A header of 84 bytes, and 50 for each triangle of both parts.
+  const triangles = (it: Uint8Array): number => (it.length - 84) / 50;
+  expect(triangles(bytes)).toBe(triangles(cube.bytes) + triangles(round.bytes));
+  expect(bytes.readUInt32LE(80)).toBe(triangles(bytes));
   await page.goto('./');
   await expect(part(page, 'round.stl')).toContainText('Own settings');
   await sliceButton(page).click();

@@ -10,10 +10,12 @@ import { placeIn } from './lesson/steps.ts';
 import type { Edit, ModelSource, Up } from './messages.ts';
 import { asStanding, atFreeSpot, freeId, movedTo, type Part, standing, UNMOVED } from './parts.ts';
 import { settingsFiles } from './profiles/catalog.ts';
-import { besideForm } from './profiles/choice.ts';
+import { besideForm, flattened } from './profiles/choice.ts';
 import { parseSaved, type SavedSettings } from './profiles/layers.ts';
 import { asChanges, asSettings, type Changes, withChange } from './settings/changes.ts';
 import type { Value } from './settings/fields.ts';
+import { ofModels, withModels } from './settings/of-models.ts';
+import { ownGroups } from './settings/own.ts';
 import { allFields, roomOf } from './settings/room.ts';
 import { EngineError, isCancel } from './slicer/errors.ts';
 import { partsOf } from './slicer/gcode.ts';
@@ -309,22 +311,28 @@ export class Session {
    * another slicer keeps the chosen printer and what else it does not speak of.
    */
   async importSettings(file: File): Promise<void> {
-    await this.#edit(async ({ changes }) => {
+    await this.#edit(async ({ changes, parts, model }) => {
       const content = new Uint8Array(await file.arrayBuffer());
       const own = ownSettings(content);
       const found = own === undefined ? await importProfile(content, () => loadFiles(filesUrl)) : undefined;
       const below = own === undefined ? [asSettings(changes)] : settingsFiles(own.profiles);
       const above = JSON.stringify(own?.settings ?? found?.settings ?? {});
-      const resolved = await this.#pool.settings([...below, above], []);
-      const settingsNotes = found === undefined ? leftOut(own) : notesOf(found, file.name);
-      const all = JSON.parse(resolved) as object;
-      return { changes: { ...asChanges(all, allFields), ...besideForm(all) }, settingsNotes };
+      const all = JSON.parse(await this.#pool.settings([...below, above], [])) as object;
+      const plate = { ...asChanges(all, allFields), ...besideForm(all) };
+      const given = withModels(parts, filesOf(model), await this.#ownChanges(own?.models ?? {}, plate));
+      const settingsNotes = found === undefined ? leftOut(given.unknown) : notesOf(found, file.name);
+      return { changes: plate, parts: given.parts, settingsNotes };
     });
   }
 
+  /** Hands the settings to the browser as a file, with those that single models have of their own. */
   exportSettings(): void {
-    const text = `${JSON.stringify(JSON.parse(asSettings(this.#store.state.changes)), null, 2)}\n`;
-    saveFile(new Blob([text], { type: 'application/json' }), 'foothold-settings.json');
+    const { changes, parts, model } = this.#store.state;
+    const { models, unlike } = ofModels(parts, filesOf(model));
+    const plate = JSON.parse(asSettings(changes)) as object;
+    const all = Object.keys(models).length === 0 ? plate : { ...plate, models };
+    saveFile(new Blob([`${JSON.stringify(all, null, 2)}\n`], { type: 'application/json' }), 'foothold-settings.json');
+    this.#store.update({ settingsNotes: leftOut(unlike) });
   }
 
   /** Asks the engine about the open models with the settings of the form; the answer is JSON. */
@@ -400,6 +408,19 @@ export class Session {
     if (result === undefined) return;
     const last = result.gcode.layers.length - 1;
     this.#store.update({ step: step === 'prepare' ? 'preview' : step, layer: Math.min(Math.max(layer, 0), last) });
+  }
+
+  /** Settings of single models as the engine reads them, as far as the plate does not have them. */
+  async #ownChanges(models: SavedSettings['models'], plate: Changes): Promise<Record<string, Changes>> {
+    const defaults = new Map(
+      ownGroups(plate).flatMap(({ fields }) => fields.map((it) => [it.path, it.default] as const)),
+    );
+    const changes: Record<string, Changes> = {};
+    for (const [name, settings] of Object.entries(models)) {
+      const found = flattened(JSON.parse(await this.#pool.own([JSON.stringify(settings)], [])) as object);
+      changes[name] = Object.fromEntries(Object.entries(found).filter(([path, it]) => !same(it, defaults.get(path))));
+    }
+    return changes;
   }
 
   /** All settings of the form as JSON, with what else is to be changed. */
@@ -488,11 +509,17 @@ function ownSettings(content: Uint8Array): SavedSettings | undefined {
   }
 }
 
-/** Settings of single models in a file of ours are for the command line: here each part has a form. */
-function leftOut(own: SavedSettings | undefined): readonly string[] {
-  const names = Object.keys(own?.models ?? {});
+/** That settings of single models were left out: no open model is called so, or its parts differ. */
+function leftOut(names: readonly string[]): readonly string[] {
   return names.length === 0 ? [] : [t.profiles.ofModels(names.join(', '))];
 }
+
+/** The names of the open models' files. */
+function filesOf(model: State['model']): readonly string[] {
+  return model.kind === 'open' ? model.models.map(({ source }) => source.name) : [];
+}
+
+const same = (a: unknown, b: unknown): boolean => JSON.stringify(a) === JSON.stringify(b);
 
 /** What became of another slicer's profile. */
 function notesOf({ mapped, changed, unknown }: Imported, name: string): readonly string[] {

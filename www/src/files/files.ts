@@ -80,10 +80,22 @@ async function bytes(file: Bytes, to: number): Promise<Uint8Array> {
 
 /** Throws a ModelError when a file has more bytes than can be worked with. */
 export function refuseTooLarge(size: number): void {
-  if (size <= LARGEST) return;
+  if (size > LARGEST) throw tooLarge('too large', size);
+}
+
+/** Throws a ModelError when files, each small enough, have too many bytes together. */
+export function refuseTooLargeTogether(sources: readonly ModelSource[]): void {
+  const size = sources.reduce((sum, { file }) => sum + file.size, 0);
+  if (sources.length > 1 && size > LARGEST) throw tooLarge(`${sources.length} files are too large together`, size);
+}
+
+function tooLarge(what: string, size: number): EngineError {
   const mib = (n: number): string => `${Math.ceil(n / 1024 / 1024)} MiB`;
-  const message = `too large: ${mib(size)}, the limit is ${mib(LARGEST)}`;
-  throw new EngineError({ name: 'ModelError', message, fatal: false });
+  return new EngineError({
+    name: 'ModelError',
+    message: `${what}: ${mib(size)}, the limit is ${mib(LARGEST)}`,
+    fatal: false,
+  });
 }
 
 /** A file's name without folders and ending. */

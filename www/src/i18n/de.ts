@@ -205,7 +205,7 @@ export const de: Words = {
   problem: {
     ModelError: {
       title: 'Dieses Modell ist nicht brauchbar',
-      advice: 'Noch einmal als STL ausgeben oder ein anderes öffnen.',
+      advice: 'Ein anderes öffnen, es in seinem Programm noch einmal speichern oder eine andere Lage wählen.',
     },
     SettingsError: { title: 'Eine Einstellung stimmt nicht', advice: 'Berichtigen und noch einmal slicen.' },
     FitError: {

@@ -206,7 +206,10 @@ export const en = {
     },
   },
   problem: {
-    ModelError: { title: 'This model can’t be used', advice: 'Export it again as STL, or open another one.' },
+    ModelError: {
+      title: 'This model can’t be used',
+      advice: 'Open another one, save it again in the program it comes from, or choose another way up.',
+    },
     SettingsError: { title: 'A setting is not right', advice: 'Correct it and slice again.' },
     FitError: {
       title: 'It does not fit the printer',

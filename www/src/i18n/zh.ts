@@ -200,7 +200,7 @@ export const zh: Words = {
     },
   },
   problem: {
-    ModelError: { title: '无法使用此模型', advice: '请重新导出为 STL，或打开其他模型。' },
+    ModelError: { title: '无法使用此模型', advice: '请打开其他模型、在原程序中重新保存，或选择其他朝向。' },
     SettingsError: { title: '某项设置有误', advice: '请更正后重新切片。' },
     FitError: { title: '超出打印机的尺寸', advice: '请在打印机设置中选择更大的打印床或高度，或换用更小的模型。' },
     InternalError: {

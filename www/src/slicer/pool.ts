@@ -1,7 +1,7 @@
 // Runs a job over several lanes; used by the page and by the command line. The lead lane holds the models and
 // the job; helper lanes slice the ranges of layers that the lead prepares for them. What comes out does not
 // depend on how many lanes there are or on which of them sliced what.
-import { isForeign } from '../files/files.ts';
+import { isForeign, refuseTooLargeTogether } from '../files/files.ts';
 import type {
   Bounds,
   CameraNumbers,
@@ -93,6 +93,7 @@ export class Pool {
   async add(sources: readonly ModelSource[]): Promise<Opened> {
     await this.ready();
     const all = [...this.#sources, ...sources];
+    refuseTooLargeTogether(all);
     const keep = this.#sources.length;
     const { inspections, parse_ms } = await this.#guard(this.#someLead().call({ kind: 'open', sources: all, keep }));
     const opened = { inspections, parse_ms };
@@ -103,6 +104,7 @@ export class Pool {
 
   /** The models in files of any format, as sources to be opened: STL as they are, others part by part. */
   async unpack(sources: readonly ModelSource[]): Promise<readonly ModelSource[]> {
+    refuseTooLargeTogether(sources);
     const models = async (source: ModelSource): Promise<readonly ModelSource[]> => {
       if (!(await isForeign(source))) return [source];
       return (await this.#guard(this.#someLead().call({ kind: 'unpack', source }))).sources;
