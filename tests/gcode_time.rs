@@ -2,12 +2,17 @@
 //! back, the way is cut into steps of a hundredth of a mm, and the highest speed at each step follows
 //! from the limits by one pass back and one forth.
 
+mod common;
+
 use foothold::gcode::read::{ReadMove, Reader};
 use foothold::gcode::{
     FileNotes, Flavor, GcodeOptions, LayerInput, PrinterOptions, assemble, join, layer_gcode,
 };
+use foothold::mesh::{load, stl::write_binary};
+use foothold::pipeline::{Job, NamedModel};
 use foothold::polygon::{DVec2, dvec2};
 use foothold::region::{Path, Role};
+use foothold::settings::Settings;
 use proptest::prelude::*;
 
 /// Length of a step, mm.
@@ -185,4 +190,53 @@ fn the_file_takes_as_long_as_its_moves() {
     let slow = simulated(&moves, &options.printer);
     let found = joined.totals.time_s;
     assert!((found - slow).abs() < 0.005 * slow, "estimate {found} s, simulation {slow} s");
+}
+
+/// Slices the models onto one plate and checks the report's time against the simulation of the file.
+fn check_whole(name: &str, models: &[Vec<u8>], sets: &[&str]) {
+    let settings = Settings::resolve([], sets.iter().copied()).expect("good settings");
+    let printer = settings.gcode_options().printer;
+    let named = models.iter().map(|m| NamedModel::new(name, load(m).expect("it can be read")));
+    let mut job = Job::new(&named.collect::<Vec<_>>(), settings, &|| 0.0).expect("it fits");
+    job.prepare(&|| 0.0).expect("good settings");
+    let range = job.slice(0, job.layer_count(), &|| 0.0);
+    job.add(range.meta);
+    let finished = job.finish(&|| 0.0).expect("all layers are there");
+    let moves: Vec<ReadMove> = Reader::new(&assemble(&finished.joined, &range.texts)).collect();
+    let (found, slow) = (finished.report.time_s, simulated(&moves, &printer));
+    eprintln!("{name} {sets:?}: estimate {found:.1} s, simulation {slow:.1} s, {:.4}", found / slow);
+    assert!((found / slow - 1.0).abs() < 0.01, "{name} {sets:?}: estimate {found} s, simulation {slow} s");
+}
+
+#[test]
+fn whole_real_models_take_as_long_as_their_moves() {
+    let Some(folder) = common::models_dir() else { return };
+    let of_name = |name: &str| std::fs::read(folder.join(name)).expect("the model");
+    for (name, sets) in [
+        ("bridge_test.stl", &["printer.flavor=marlin"][..]),
+        ("cal_cube.stl", &["printer.flavor=klipper", "gcode.arc_fitting=true"]),
+        ("tolerance.stl", &["printer.flavor=prusa", "gcode.arc_fitting=true"]),
+        ("thin_wall.stl", &["printer.flavor=reprap", "retraction.wipe=true", "retraction.z_hop=0.3"]),
+        ("overhang.stl", &["printer.flavor=klipper", "layers.adaptive=true"]),
+        ("hole_test.stl", &["printer.flavor=prusa", "layers.adaptive=true", "gcode.arc_fitting=true"]),
+        ("xy_calibration.stl", &["printer.flavor=marlin", "gcode.arc_fitting=true", "infill.pattern=gyroid"]),
+    ] {
+        check_whole(name, &[of_name(name)], sets);
+    }
+    let plate = [of_name("cal_cube.stl"), of_name("thin_wall.stl")];
+    check_whole("two, one after another", &plate, &["print.sequence=by_object", "gcode.arc_fitting=true"]);
+}
+
+#[test]
+fn models_printed_one_after_another_take_as_long_as_their_moves() {
+    let cylinder = common::cylinder(6.0, 5.0, 60);
+    let plate = [common::cube(8.0), common::cube(12.0), cylinder].map(|mesh| write_binary(&mesh));
+    for flavor in ["marlin", "klipper", "reprap", "prusa"] {
+        let flavor = format!("printer.flavor={flavor}");
+        for more in
+            ["adhesion.kind=skirt", "layers.adaptive=true", "gcode.arc_fitting=true", "retraction.z_hop=0.4"]
+        {
+            check_whole("by object", &plate, &["print.sequence=by_object", &flavor, more]);
+        }
+    }
 }

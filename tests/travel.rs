@@ -72,7 +72,7 @@ fn nearest_neighbour(layer: &read::ReadLayer) -> Vec<[DVec2; 2]> {
 #[test]
 fn travel_hardly_leaves_the_part() {
     let Some(folder) = common::models_dir() else { return };
-    let sets = ["adhesion.kind=none", "first_layer.elephant_foot=0", "seam.gap=0"];
+    let sets = ["adhesion.kind=none", "first_layer.elephant_foot=0"];
     let (mut all, mut all_nearest) = ([0, 0], [0, 0]);
     let mut unavoidable = 0;
     for name in ["bridge_test.stl", "support_test.stl", "hole_test.stl", "xy_calibration.stl"] {
