@@ -6,6 +6,7 @@ import {
   eyeOf,
   FIELD_OF_VIEW,
   fitted,
+  fittedBetween,
   frameOf,
   type Orbit,
   type Point,
@@ -68,6 +69,22 @@ test.each(Object.entries(sides))('all corners of the box are in the picture, %s'
         }
       }
     }
+  }
+});
+
+test.each(Object.entries(sides))('the box is between what covers the edges, %s', (_, side) => {
+  const [width, height, top, bottom] = [390, 455, 50, 62];
+  const orbit = fittedBetween(box, side, { width, height }, [top, bottom]);
+  const [right, up, back] = frameOf(orbit);
+  const eye = eyeOf(orbit);
+  const corners = [10, 50].flatMap((x) => [20, 40].flatMap((y) => [0, 30].map((z): Point => [x, y, z])));
+  for (const [x, y, z] of corners) {
+    const from: Point = [x - eye[0], y - eye[1], z - eye[2]];
+    const pixels = height / 2 / (-dot(from, back) * Math.tan(FIELD_OF_VIEW / 2));
+    const down = height / 2 - dot(from, up) * pixels;
+    expect(down).toBeGreaterThan(top);
+    expect(down).toBeLessThan(height - bottom);
+    expect(Math.abs(dot(from, right) * pixels)).toBeLessThan(width / 2);
   }
 });
 

@@ -1,4 +1,5 @@
 // The camera of the picture in space: it looks at a point of the bed from a direction and a distance.
+import type { Size } from './camera.ts';
 
 export type Point = readonly [number, number, number];
 
@@ -65,6 +66,20 @@ export function fitted(box: readonly number[], [azimuth, elevation]: readonly [n
     return dot(from, back) + Math.max(wide, Math.abs(dot(from, up)) / half);
   });
   return { ...orbit, distance: Math.max(DISTANCES[0], ROOM * Math.max(...distances)) };
+}
+
+/** Looking at a box so that all of it is between what covers the picture's upper and lower edge, px. */
+export function fittedBetween(
+  box: readonly number[],
+  direction: readonly [number, number],
+  { width, height }: Size,
+  [top, bottom]: readonly [number, number],
+): Orbit {
+  // A picture too low for both keeps half of itself.
+  const share = Math.max(0.5, 1 - (top + bottom) / Math.max(height, 1));
+  const free = share * Math.max(height, 1);
+  const orbit = fitted(box, direction, width / free);
+  return panned({ ...orbit, distance: orbit.distance / share }, 0, (top - bottom) / 2, height);
 }
 
 /** Where the eye is, mm. */

@@ -9,7 +9,7 @@ import type { Sheet } from '../studies.ts';
 import { Part as Element } from '../ui/part.ts';
 import type { Size, Spot } from './camera.ts';
 import { type ColourBy, extent, indices, insideRoles, palette, type RoleColour } from './colours.ts';
-import { fitted, type Orbit, type Point, panned, sides, turned, zoomed } from './orbit.ts';
+import { fittedBetween, type Orbit, type Point, panned, sides, turned, zoomed } from './orbit.ts';
 import { isBroken, type Painter } from './painter.ts';
 import type { Stage } from './stage.ts';
 
@@ -26,6 +26,8 @@ const WHEEL_ZOOM = 0.0018;
 const MOST_DRAWN = 6_000_000;
 /** What an engine did not answer (a job was cancelled, the engine broke) is asked for again, but not for ever. */
 const MOST_TRIES = 3;
+/** What the buttons above and the slider of moves below cover of the picture, px. */
+const COVERED = [50, 62] as const;
 /** A pointer that moved less, px, was a click. */
 const CLICK = 4;
 
@@ -357,7 +359,7 @@ export class SpaceView extends Element {
       this.#told.side = this.side;
       this.#orbit = undefined;
     }
-    this.#orbit ??= fitted(this.#seen(), sides[this.side], this.#size.width / Math.max(this.#size.height, 1));
+    this.#orbit ??= fittedBetween(this.#seen(), sides[this.side], this.#size, COVERED);
     stage.look(this.#orbit);
   }
 
