@@ -25,7 +25,7 @@ const RESOLUTION_SHARE: f64 = 0.01;
 /// Below this, mm, simplifying gains nothing: it is the order of the polygon grid.
 const FINEST_RESOLUTION: f64 = 5e-4;
 
-/// Support regions are kept in square tiles, as many as there are so many triangles. Between 200 and 600 the
+/// Support regions are kept in square tiles, as many as there are so many triangles. Between 200 and 800 the
 /// times of parts with deep folds differ by less than a tenth; simple parts are one tile.
 const TRIANGLES_A_TILE: f64 = 300.0;
 

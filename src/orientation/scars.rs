@@ -4,8 +4,7 @@ use glam::DVec3;
 
 use super::layers::LayerStack;
 use crate::mesh::Mesh;
-use crate::polygon::{DVec2, dvec2};
-use crate::sort::StableSort;
+use crate::polygon::DVec2;
 
 /// Facets are looked at in patches of about this area, mm2, each touched wholly or not at all.
 const PATCH_MM2: f64 = 1.0;
@@ -16,7 +15,6 @@ const MOST_PATCHES: f64 = 32.0;
 /// A patch of the surface that a support may touch.
 #[derive(Debug, Clone, Copy)]
 struct Patch {
-    run: u32,
     at: DVec2,
     area_mm2: f64,
 }
@@ -24,8 +22,8 @@ struct Patch {
 /// The patches of a turned mesh, by the run of layers whose support could touch them.
 #[derive(Debug)]
 pub(super) struct Scars {
-    /// Sorted by run, ascending.
-    patches: Vec<Patch>,
+    /// Of each run.
+    patches: Vec<Vec<Patch>>,
     touched_mm2: f64,
 }
 
@@ -33,7 +31,7 @@ impl Scars {
     /// Facets that look down are touched by the support of the layer below them, those that look
     /// up by that of the layer above. Vertical walls are not: supports keep a distance sideways.
     pub(super) fn new(mesh: &Mesh, stack: &LayerStack) -> Scars {
-        let mut patches = Vec::new();
+        let mut patches = vec![Vec::new(); stack.runs.len()];
         for t in 0..mesh.triangles.len() {
             let corners = mesh.corners(t).map(|v| v.as_dvec3());
             let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
@@ -41,15 +39,12 @@ impl Scars {
                 add_facet(corners, normal, stack, &mut patches);
             }
         }
-        patches.stable_sort_by_key(|patch| patch.run);
         Scars { patches, touched_mm2: 0.0 }
     }
 
-    /// Looks at the patches of a run; `supports` tells whether a point lies in its support region. Runs come
-    /// from the top down.
+    /// Looks at the patches of a run, once; `supports` tells whether a point lies in its support region.
     pub(super) fn look(&mut self, run: usize, supports: impl Fn(DVec2) -> bool) {
-        let below = self.patches.partition_point(|patch| (patch.run as usize) < run);
-        let patches = self.patches.split_off(below);
+        let patches = std::mem::take(&mut self.patches[run]);
         let touched = patches.iter().filter(|patch| supports(patch.at));
         self.touched_mm2 += touched.map(|patch| patch.area_mm2).sum::<f64>();
     }
@@ -60,7 +55,7 @@ impl Scars {
     }
 }
 
-fn add_facet(corners: [DVec3; 3], normal: DVec3, stack: &LayerStack, patches: &mut Vec<Patch>) {
+fn add_facet(corners: [DVec3; 3], normal: DVec3, stack: &LayerStack, patches: &mut [Vec<Patch>]) {
     let area = normal.length() / 2.0;
     let n = (area / PATCH_MM2).sqrt().ceil().clamp(1.0, MOST_PATCHES) as usize;
     let [a, along, across] = [corners[0], corners[1] - corners[0], corners[2] - corners[0]];
@@ -76,8 +71,8 @@ fn add_facet(corners: [DVec3; 3], normal: DVec3, stack: &LayerStack, patches: &m
         let above = stack.planes_up_to(at.z);
         let layer = if normal.z < 0.0 { above.checked_sub(1) } else { Some(above) };
         if let Some(layer) = layer.filter(|&layer| layer < stack.slice_z.len()) {
-            let run = stack.run_of(layer) as u32;
-            patches.push(Patch { run, at: dvec2(at.x, at.y), area_mm2: area / (n * n) as f64 });
+            let patch = Patch { at: at.truncate(), area_mm2: area / (n * n) as f64 };
+            patches[stack.run_of(layer)].push(patch);
         }
     }
 }

@@ -2,6 +2,8 @@
 //!
 //! Only this file and `offset.rs` know that library. Slivers below [`NOTHING_MM2`] are dropped.
 
+use std::cell::RefCell;
+
 use clipper2_rust::{ClipType, Clipper64, FillRule, Path64, Paths64, Point64};
 
 use super::{Contour, DVec2, GRID_PER_MM, PolygonSet, dvec2, grid_steps};
@@ -103,13 +105,21 @@ pub(super) fn unite(contours: Vec<Contour>) -> PolygonSet {
 }
 
 fn run(kind: ClipType, subjects: Paths64, clips: Paths64) -> PolygonSet {
-    let mut clipper = Clipper64::new();
-    clipper.set_preserve_collinear(false);
-    clipper.add_subject(&subjects);
-    clipper.add_clip(&clips);
     let mut solution = Paths64::new();
-    clipper.execute(kind, FillRule::NonZero, &mut solution, None);
+    CLIPPER.with_borrow_mut(|clipper| {
+        // Also what an operation left behind that panicked.
+        clipper.clear();
+        clipper.set_preserve_collinear(false);
+        clipper.add_subject(&subjects);
+        clipper.add_clip(&clips);
+        clipper.execute(kind, FillRule::NonZero, &mut solution, None);
+    });
     from_paths(&solution)
+}
+
+thread_local! {
+    /// Keeps the memory of its tables from one operation to the next: many are small.
+    static CLIPPER: RefCell<Clipper64> = RefCell::new(Clipper64::new());
 }
 
 pub(super) fn to_paths(contours: &[Contour]) -> Paths64 {

@@ -18,9 +18,10 @@ pub struct Tiles {
 }
 
 impl PolygonSet {
-    /// What lies within the box; pieces of it may stay joined, see [`Tiles::cut`].
+    /// What lies within the box.
     pub fn within(&self, bounds: Bounds) -> PolygonSet {
-        Tiles::around(bounds).cut(self).swap_remove(4)
+        let joined = Tiles::around(bounds).cut(self).swap_remove(4);
+        PolygonSet::from_contours(joined.into_contours())
     }
 }
 

@@ -4,7 +4,8 @@
 //! Deposition Orientation in FDM", equations (2) to (8). Plate supports share [`need`].
 
 use super::reach::Reach;
-use crate::polygon::island::Island;
+use crate::polygon::island::{Island, inner_point};
+use crate::polygon::measure::Bounds;
 use crate::polygon::trig::tan;
 use crate::polygon::{Join, PolygonSet};
 
@@ -46,9 +47,10 @@ pub fn externally_supported(above: &PolygonSet, below: &PolygonSet, step: f64) -
     let overhang = above.difference(below);
     let islands = Island::all_of(&overhang);
     let mut reaching: Vec<bool> = islands.iter().map(|island| reach.is_left_by(island)).collect();
-    for (island, reaches) in islands.iter().zip(&mut reaching) {
-        // Where distances leave it open, the growth itself decides.
-        *reaches = *reaches || !reach.holds_island(island) && leaves_growth(island, below, step);
+    let is_open = |(island, reaches): (&Island, &bool)| !reaches && !reach.holds_island(island);
+    if islands.iter().zip(&reaching).any(is_open) {
+        // Distances leave it open: the growth itself decides.
+        mark_reaching(&islands, &outside_growth(&islands, &reaching, below, step), &mut reaching);
     }
     components(overhang, islands, &reaching)
 }
@@ -62,12 +64,30 @@ pub fn need(above: &PolygonSet, below: &PolygonSet, step: f64, opening: f64) -> 
     above.difference(&permissible_overhang(below, step)).opened(opening, MITRE)
 }
 
-/// Whether a part of the island lies outside the permissible overhang of `below`.
-fn leaves_growth(island: &Island, below: &PolygonSet, step: f64) -> bool {
-    // What lies farther from the island than a mitre and the growth of a cut reach has no say.
-    let near = island.bounds.grown(2.0 * MITRE_LIMIT * (step + SNAP_SLACK_MM));
-    let growth = permissible_overhang(&below.within(near), step);
-    !island.polygon.clone().into_set().difference(&growth).is_empty()
+/// What of the islands that are not `settled` lies outside the permissible overhang of `below`.
+fn outside_growth(islands: &[Island], settled: &[bool], below: &PolygonSet, step: f64) -> PolygonSet {
+    let open = || islands.iter().zip(settled).filter(|(_, settled)| !**settled).map(|(island, _)| island);
+    let Some(bounds) = open().map(|island| island.bounds).reduce(Bounds::union) else {
+        return PolygonSet::EMPTY;
+    };
+    // What lies farther from them than a mitre and the growth of a cut reach has no say.
+    let near = below.within(bounds.grown(2.0 * MITRE_LIMIT * (step + SNAP_SLACK_MM)));
+    let contours = open().flat_map(|island| island.polygon.clone().into_set().into_contours());
+    PolygonSet::canonical(contours.collect()).difference(&permissible_overhang(&near, step))
+}
+
+/// Marks the islands of an overhang that hold a piece of `outside`, which lies within them.
+fn mark_reaching(islands: &[Island], outside: &PolygonSet, reaching: &mut [bool]) {
+    for piece in outside.islands() {
+        let point = inner_point(&piece);
+        let around = match islands.len() {
+            1 => Some(0),
+            _ => point.and_then(|p| Island::around(islands, p)),
+        };
+        if let Some(i) = around {
+            reaching[i] = true;
+        }
+    }
 }
 
 /// The marked islands of `overhang`.

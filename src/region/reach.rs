@@ -5,7 +5,7 @@ use crate::polygon::grid::EdgeGrid;
 use crate::polygon::island::Island;
 use crate::polygon::simplify::squared_distance_to_segment;
 use crate::polygon::strips::Strips;
-use crate::polygon::{Contour, DVec2, Join, PolygonSet};
+use crate::polygon::{Contour, DVec2, Join, Polygon, PolygonSet};
 
 /// By so much, mm, a point must lie nearer than allowed to be surely within: rounding to the grid may
 /// bring the grown border nearer by less.
@@ -54,7 +54,15 @@ impl<'a> Reach<'a> {
     pub(super) fn holds_island(&self, island: &Island) -> bool {
         let polygon = &island.polygon;
         self.holds_border(std::iter::once(&polygon.outer).chain(&polygon.holes))
+            && self.is_narrow(polygon)
             && self.covers_no_hole(&polygon.clone().into_set())
+    }
+
+    /// Whether the area is so small for the length of its border that it may be a strip along it: the border may
+    /// be near all around a wide bay whose mouth is narrow.
+    fn is_narrow(&self, polygon: &Polygon) -> bool {
+        let border = polygon.outer.length() + polygon.holes.iter().map(Contour::length).sum::<f64>();
+        polygon.area() <= border / 2.0 * self.step
     }
 
     fn holds_border<'c>(&self, contours: impl IntoIterator<Item = &'c Contour>) -> bool {
@@ -130,7 +138,9 @@ impl<'a> Reach<'a> {
         let covered = Strips::new(area);
         let limit = self.mitre_limit;
         holes.all(|hole| {
-            let left = PolygonSet::canonical(vec![hole.reversed()]).offset(-self.step, Join::Mitre { limit });
+            // What stands in the hole leaves less of it open.
+            let empty = PolygonSet::canonical(vec![hole.reversed()]).difference(self.below);
+            let left = empty.offset(-self.step, Join::Mitre { limit });
             !left.contours().iter().any(|c| covered.contain(c.points[0]))
         })
     }
@@ -184,6 +194,28 @@ mod tests {
                 prop_assert!(!reach.holds_island(&island) || left.is_empty(), "{island:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_ring_between_pin_and_hole_is_too_wide_in_the_middle() {
+        let square = |r: f64| PolygonSet::rectangle(dvec2(-r, -r), dvec2(r, r));
+        let around = square(20.0).difference(&square(5.0));
+        let below = around.union(&square(4.5));
+        let gap = &Island::all_of(&square(5.0).difference(&square(4.5)))[0];
+        // Its border is the border below; the middle is 0.25 away.
+        assert!(!Reach::new(&below, 0.2, LIMIT).holds_island(gap));
+        assert!(!Reach::new(&below, 0.2, LIMIT).holds(&square(20.0)));
+        assert!(Reach::new(&below, 0.6, LIMIT).holds_island(gap));
+    }
+
+    #[test]
+    fn a_bay_with_a_narrow_mouth_is_left() {
+        let bay = PolygonSet::rectangle(dvec2(-2.0, 0.0), dvec2(2.0, 4.0));
+        let mouth = PolygonSet::rectangle(dvec2(-0.1, 4.0), dvec2(0.1, 5.0));
+        let above = PolygonSet::rectangle(dvec2(-5.0, -3.0), dvec2(5.0, 5.0));
+        let below = above.difference(&bay.union(&mouth));
+        let hanging = &Island::all_of(&above.difference(&below))[0];
+        assert!(!Reach::new(&below, 0.2, LIMIT).holds_island(hanging));
     }
 
     #[test]

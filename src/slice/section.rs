@@ -78,7 +78,8 @@ fn planes_crossed(mesh: &Mesh, axis: Axis, heights: &[f64], triangle: u32) -> st
         return 0..0;
     }
     let first = heights.partition_point(|&h| h <= f64::from(low));
-    first..first + heights[first..].partition_point(|&h| h <= f64::from(high))
+    // Mostly few are crossed.
+    first..first + heights[first..].iter().take_while(|&&h| h <= f64::from(high)).count()
 }
 
 /// Cuts the given triangles, all of which cross the plane `axis = height`.

@@ -101,14 +101,17 @@ impl Tile {
     ) -> bool {
         let is_as_before = area == self.area || self.region.is_empty();
         self.area = area;
-        if esf.is_empty() && (is_as_before || self.is_surely_apart()) {
+        let stays = is_as_before || self.is_surely_apart();
+        if esf.is_empty() && stays {
             return false;
         }
         let mut held = reaching_over(esf, &self.region, self.bounds);
         held.extend_from_slice(self.region.contours());
         // These contours overlap: one operand of the difference, which counts what is wound around.
         let held = PolygonSet::canonical(held);
-        let left = held.wound_difference(&self.area);
+        // What needs support lies beside the part, so that both leave the rest alone.
+        let cut_by = if stays { &PolygonSet::EMPTY } else { &self.area };
+        let left = held.wound_difference(cut_by);
         let region = self.without_jags(without_slivers(left), JAG_SHARE * layer_height);
         let changed = !esf.is_empty() || region != self.region;
         if changed {
