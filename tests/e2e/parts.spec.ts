@@ -76,6 +76,10 @@ test('a part outside the printer is marked, and slicing says where it stands', a
   await expect(page.getByRole('region', { name: 'Job' }).getByRole('alert')).toContainText(
     'part 1 reaches from (-5.0, 105.0, 0.0)',
   );
+  await page.getByRole('button', { name: 'Arrange' }).click();
+  await expect(page.getByLabel('Middle along X, mm')).toHaveValue('110');
+  await expect(part(page, 'cube.stl')).not.toContainText('Stands outside the printer');
+  await expect(page.getByRole('button', { name: 'Arrange' })).toHaveCount(0);
   await type(page, 'Middle along X, mm', '50');
   await sliceButton(page).click();
   await expect(downloadButton(page)).toBeEnabled();

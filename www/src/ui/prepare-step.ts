@@ -3,7 +3,7 @@ import { html, nothing, type TemplateResult } from 'lit';
 import settingsSchema from '../../../schema/settings.schema.json';
 import { t } from '../i18n/text.ts';
 import type { Edit, ModelSource } from '../messages.ts';
-import type { Part } from '../parts.ts';
+import { isOutside, type Part } from '../parts.ts';
 import { chosenIn, offered, withProfile } from '../profiles/choice.ts';
 import { type Changes, withChange } from '../settings/changes.ts';
 import type { Schema } from '../settings/fields.ts';
@@ -111,7 +111,7 @@ export class PrepareStep extends StepPart {
       ${laying && chosen !== undefined ? this.#faces(chosen) : nothing}
       <div class="row">
         ${
-          parts.length > 1
+          parts.length > 1 || parts.some((it) => isOutside(it, roomOf(changes)))
             ? html`<button type="button" class="button small" @click=${() => void this.session?.arrange()}>
               ${t.parts.arrange}
             </button>`
