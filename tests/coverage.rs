@@ -37,8 +37,14 @@ const AIM: Miss = Miss { name: "", layers: None, covered: 0.99, short_of: 0.05, 
 /// the root of a thin wall on the first layer, on layers of a few mm2, and on the steep dome of a torus of
 /// 3 mm too.
 const NOT_YET: &[Miss] = &[
-    Miss { name: "overhang.stl", covered: 0.978, short_of: 0.12, ..AIM },
-    Miss { name: "angle_block_mm.stl", covered: 0.986, short_of: 0.16, ..AIM },
+    Miss {
+        name: "overhang.stl",
+        layers: Some(&[40, 59, 107, 109, 110, 112, 113, 114, 115, 116, 117, 118, 141, 142, 143, 156]),
+        covered: 0.978,
+        short_of: 0.12,
+        ..AIM
+    },
+    Miss { name: "angle_block_mm.stl", layers: Some(&[0, 90, 113]), covered: 0.986, short_of: 0.16, ..AIM },
     Miss { name: "bridge_test.stl", layers: Some(&[10, 20, 30, 80, 90]), short_of: 0.28, ..AIM },
     Miss { name: "thin_wall.stl", layers: Some(&[0]), short_of: 0.1, ..AIM },
     Miss { name: "tolerance.stl", layers: Some(&[0, 59]), covered: 0.989, ..AIM },
