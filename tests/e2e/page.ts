@@ -109,6 +109,8 @@ export async function download(page: Page): Promise<{ name: string; file: string
 
 /** Waits until the picture stands still, and returns it. */
 export async function settled(page: Page): Promise<Buffer> {
+  // A picture that moves may show less than when it rests.
+  await page.waitForTimeout(300);
   let before = await picture(page).screenshot();
   for (let tries = 0; tries < 20; tries++) {
     await page.waitForTimeout(150);

@@ -16,6 +16,7 @@ import {
   Vector3,
 } from 'three';
 import type { Moves } from '../messages.ts';
+import { type Detail, layersDrawnAs } from './pace.ts';
 
 const vertex = `
 precision highp float;
@@ -23,6 +24,7 @@ uniform mat4 modelViewMatrix;
 uniform mat4 projectionMatrix;
 uniform highp sampler2D palette;
 uniform float travelWidth;
+uniform float layers;
 in vec2 position;
 in vec3 start;
 in vec3 end;
@@ -33,7 +35,9 @@ out float across;
 void main() {
   vec4 entry = texelFetch(palette, ivec2(int(colour + 0.5), 0), 0);
   bool isTravel = size.x <= 0.0;
-  float drop = size.y / 2.0;
+  // A bead may stand for those of the layers below it.
+  float height = size.y * layers;
+  float drop = height / 2.0;
   vec3 a = (modelViewMatrix * vec4(start.xy, start.z - (isTravel ? 0.0 : drop), 1.0)).xyz;
   vec3 b = (modelViewMatrix * vec4(end.xy, end.z - (isTravel ? 0.0 : drop), 1.0)).xyz;
   vec3 axis = b - a;
@@ -46,7 +50,7 @@ void main() {
   // The bead is as wide as it is across the bed and as high as its layer.
   vec3 up = normalize((modelViewMatrix * vec4(0.0, 0.0, 1.0, 0.0)).xyz);
   float rise = abs(dot(side, up));
-  float radius = isTravel ? travelWidth * -here.z : 0.5 * mix(size.x, size.y, rise);
+  float radius = isTravel ? travelWidth * -here.z : 0.5 * mix(size.x, height, rise);
   float cap = isTravel ? 0.0 : 0.35 * size.x;
   vec3 at = here + side * radius * position.y + axis * cap * position.x;
   gl_Position = entry.a < 0.5 ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * vec4(at, 1.0);
@@ -72,45 +76,68 @@ interface Instances {
   readonly ends: Uint32Array;
 }
 
+/** Some of a batch's moves. */
+interface Share extends Instances {
+  /** Positions of these moves among all. */
+  readonly kept: Uint32Array;
+}
+
 interface Batch {
   readonly moves: Moves;
   readonly all: Instances;
-  /** What is seen from outside, for devices that are too slow to draw all while the picture moves. */
-  outside?: Instances & {
-    /** Positions of these moves among all. */
-    readonly kept: Uint32Array;
-  };
+  /**
+   * What is seen from outside, for devices that are too slow to draw all while the picture moves: every layer that
+   * only detail 1 shows, then those that detail 2 adds to 3, 3 to 4, and what 4 shows.
+   */
+  outside?: readonly Share[];
+}
+
+/** Layers that the coarsest detail draws as one. */
+const MOST_LAYERS = 8;
+
+/** The coarsest detail that shows layer `k` of a batch: the uppermost of eight layers stands for them all. */
+export function coarsestWith(k: number): Detail {
+  const place = (k % MOST_LAYERS) + 1;
+  return place % 8 === 0 ? 4 : place % 4 === 0 ? 3 : place % 2 === 0 ? 2 : 1;
 }
 
 export class Beads {
   readonly group = new Group();
   readonly #material: RawShaderMaterial;
+  /** Draws beads as high as the layers that they stand for. */
+  readonly #coarseMaterial: RawShaderMaterial;
   readonly #palette = new DataTexture(new Uint8Array(4 * 256), 256, 1);
   readonly #corners = new BufferAttribute(new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), 2);
   readonly #triangles = new BufferAttribute(new Uint16Array([0, 1, 2, 2, 1, 3]), 1);
   #batches: Batch[] = [];
   #shown: readonly [layer: number, moves: number] = [0, 0];
-  #coarse = false;
+  #detail: Detail = 0;
   #inside: ReadonlySet<number> = new Set();
 
   constructor() {
     this.#palette.minFilter = NearestFilter;
     this.#palette.magFilter = NearestFilter;
-    this.#material = new RawShaderMaterial({
+    this.#material = this.#beadsOf(1);
+    this.#coarseMaterial = this.#beadsOf(1);
+  }
+
+  /** A material whose beads stand for so many layers. */
+  #beadsOf(layers: number): RawShaderMaterial {
+    return new RawShaderMaterial({
       glslVersion: GLSL3,
       vertexShader: vertex,
       fragmentShader: fragment,
-      uniforms: { palette: { value: this.#palette }, travelWidth: { value: 0.0007 } },
+      uniforms: { palette: { value: this.#palette }, travelWidth: { value: 0.0007 }, layers: { value: layers } },
       side: 2,
     });
   }
 
   /** Adds the moves of further layers, with an index into the palette each. */
   add(moves: Moves, colours: Uint8Array<ArrayBuffer>): void {
-    this.#batches.push({ moves, all: this.#instances(moves, colours) });
+    this.#batches.push({ moves, all: this.#instances(moves, colours, this.#material) });
   }
 
-  #instances(moves: Moves, colours: Uint8Array<ArrayBuffer>): Instances {
+  #instances(moves: Moves, colours: Uint8Array<ArrayBuffer>, material: RawShaderMaterial): Instances {
     const geometry = new InstancedBufferGeometry();
     geometry.setAttribute('position', this.#corners);
     geometry.setIndex(this.#triangles);
@@ -123,7 +150,7 @@ export class Beads {
     geometry.instanceCount = moves.speeds.length;
     // The corners say nothing about where the instances are.
     geometry.boundingSphere = new Sphere(new Vector3(), Number.POSITIVE_INFINITY);
-    const mesh = new Mesh(geometry, this.#material);
+    const mesh = new Mesh(geometry, material);
     mesh.frustumCulled = false;
     this.group.add(mesh);
     return { mesh, colours: colour, ends: moves.layers };
@@ -135,25 +162,34 @@ export class Beads {
     if (all === undefined) return;
     all.colours.array.set(indices);
     all.colours.needsUpdate = true;
-    if (outside === undefined) return;
-    outside.colours.array.set(picked(indices, 1, outside.kept));
-    outside.colours.needsUpdate = true;
+    for (const share of outside ?? []) {
+      share.colours.array.set(picked(indices, 1, share.kept));
+      share.colours.needsUpdate = true;
+    }
   }
 
-  /** Draws only what is seen from outside, as far as `thin` has found it, or all again. */
-  coarse(on: boolean): void {
-    if (on === this.#coarse) return;
-    this.#coarse = on;
+  /** Draws so much of the beads; what is seen from outside as far as `thin` has found it. */
+  coarse(detail: Detail): void {
+    if (detail === this.#detail) return;
+    this.#detail = detail;
+    this.#coarseMaterial.uniforms['layers'] = { value: layersDrawnAs(detail) };
     this.#show();
   }
 
-  /** Finds what is seen from outside for one more batch, so that no frame waits for all; whether there was one. */
-  thin(): boolean {
-    const batch = this.#coarse ? this.#batches.find(({ outside }) => outside === undefined) : undefined;
-    if (batch === undefined) return false;
-    batch.outside = this.#outside(batch);
-    this.#show();
-    return true;
+  /**
+   * Finds what is seen from outside for some more batches, `time` ms long, so that no frame waits for all; whether
+   * there were any.
+   */
+  thin(time: number): boolean {
+    if (this.#detail === 0) return false;
+    const waiting = this.#batches.filter(({ outside }) => outside === undefined);
+    const end = performance.now() + time;
+    for (const batch of waiting) {
+      batch.outside = this.#outside(batch);
+      if (performance.now() > end) break;
+    }
+    if (waiting.length > 0) this.#show();
+    return waiting.length > 0;
   }
 
   /** `inside`: the indices of beads that are not seen from outside. */
@@ -172,36 +208,35 @@ export class Beads {
   #show(): void {
     const [layer, moves] = this.#shown;
     let first = 0;
-    for (const batch of this.#batches) {
+    for (const {
+      all,
+      outside,
+      moves: { layers },
+    } of this.#batches) {
       const inside = layer - first;
-      first += batch.moves.layers.length;
-      const { all, outside } = batch;
-      const isCoarse = this.#coarse && outside !== undefined;
+      first += layers.length;
+      // The batch that ends the picture is whole: its moves are counted among all, and one looks at its top.
+      const isCoarse = this.#detail > 0 && outside !== undefined && inside >= layers.length;
       all.mesh.visible = !isCoarse && showUpTo(all, inside, moves);
-      // Moves are counted among all; a coarse layer is shown whole.
-      if (outside !== undefined) {
-        outside.mesh.visible = isCoarse && showUpTo(outside, inside, Number.POSITIVE_INFINITY);
+      for (const [k, share] of (outside ?? []).entries()) {
+        share.mesh.visible = isCoarse && k + 1 >= this.#detail && share.kept.length > 0;
       }
     }
   }
 
-  #outside({ moves, all }: Batch): NonNullable<Batch['outside']> {
+  #outside({ moves, all }: Batch): Share[] {
     const colours = all.colours.array as Uint8Array<ArrayBuffer>;
-    const kept = outsideOf(moves, this.#inside);
-    let at = 0;
-    const layers = moves.layers.map((end) => {
-      while (at < kept.length && (kept[at] ?? 0) < end) at++;
-      return at;
+    return sharesOf(moves, this.#inside).map((kept) => {
+      const some = { ...moves, ends: picked(moves.ends, 6, kept), sizes: picked(moves.sizes, 2, kept) };
+      const speeds = new Float32Array(kept.length);
+      return { ...this.#instances({ ...some, speeds }, picked(colours, 1, kept), this.#coarseMaterial), kept };
     });
-    const some = { ...moves, layers, ends: picked(moves.ends, 6, kept), sizes: picked(moves.sizes, 2, kept) };
-    const speeds = new Float32Array(kept.length);
-    return { ...this.#instances({ ...some, speeds }, picked(colours, 1, kept)), kept };
   }
 
   clear(): void {
     for (const { all, outside } of this.#batches) {
       this.#drop(all);
-      if (outside !== undefined) this.#drop(outside);
+      for (const share of outside ?? []) this.#drop(share);
     }
     this.#batches = [];
   }
@@ -221,15 +256,21 @@ function showUpTo({ mesh, ends }: Instances, inside: number, moves: number): boo
   return shown > 0;
 }
 
-/** Positions of the moves that can be seen from outside. */
-function outsideOf({ roles, sizes }: Moves, inside: ReadonlySet<number>): Uint32Array {
+/** Positions of the moves that can be seen from outside, by the coarsest detail that shows them. */
+export function sharesOf(
+  { roles, sizes, layers }: Pick<Moves, 'roles' | 'sizes' | 'layers'>,
+  inside: ReadonlySet<number>,
+): Uint32Array[] {
   const isInside = Uint8Array.from({ length: 256 }, (_, role) => (inside.has(role) ? 1 : 0));
-  const kept = new Uint32Array(roles.length);
-  let count = 0;
-  for (let k = 0; k < roles.length; k++) {
-    if ((sizes[2 * k] ?? 0) > 0 && isInside[roles[k] ?? 0] === 0) kept[count++] = k;
+  const shares: number[][] = [[], [], [], []];
+  let k = 0;
+  for (const [layer, end] of layers.entries()) {
+    const share = shares[coarsestWith(layer) - 1];
+    for (; k < end; k++) {
+      if ((sizes[2 * k] ?? 0) > 0 && isInside[roles[k] ?? 0] === 0) share?.push(k);
+    }
   }
-  return kept.slice(0, count);
+  return shares.map((share) => Uint32Array.from(share));
 }
 
 /** The entries of `kept`, `width` numbers each. */

@@ -30,7 +30,9 @@ import type { Sheet } from '../studies.ts';
 import { Beads } from './beads.ts';
 import { Bed } from './bed.ts';
 import type { Size, Spot } from './camera.ts';
+import { FrameQueue } from './frame-queue.ts';
 import { eyeOf, FIELD_OF_VIEW, type Orbit, type Point } from './orbit.ts';
+import { type Pace, paced, rested, unhurried, whole } from './pace.ts';
 import { Sheets } from './sheets.ts';
 
 /** What a ray from the eye meets. */
@@ -46,8 +48,8 @@ const MOST_PICKED = 2_000_000;
 
 /** Moves of the camera further apart than this, ms, are not one movement. */
 const STILL = 250;
-/** A mean time between frames, ms, that is too slow: 30 a second. */
-const SLOW_FRAME = 33;
+/** Time in a frame to find what a coarser picture shows, ms. */
+const THIN = 12;
 
 const colours = {
   light: { ground: 0xfafbf9, part: 0x7aa0c4, selected: 0x2f8f86, outside: 0xd9604f },
@@ -70,14 +72,18 @@ export class Stage {
   #dark = false;
   #size: Size = { width: 1, height: 1 };
   #orbit: Orbit | undefined;
+  /** Whether a look at the picture and the queue is due, and whether the picture is older than what it shows. */
   #waiting = false;
-  /** When the camera moved last, ms, and the mean time between its moves. */
-  #looked = 0;
-  #slowness = 0;
-  #rest = 0;
+  #stale = false;
+  readonly #queue: FrameQueue;
+  /** What the movement of the picture has shown, and the timer that ends it; 0 while it rests. */
+  #pace: Pace = unhurried;
+  #moving = 0;
+  #shown: readonly [layer: number, moves: number] = [0, 0];
 
   constructor(canvas: HTMLCanvasElement, lost: () => void) {
     this.#renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
+    this.#queue = new FrameQueue(this.#renderer.getContext() as WebGL2RenderingContext);
     canvas.addEventListener('webglcontextlost', (event) => {
       event.preventDefault();
       lost();
@@ -106,7 +112,7 @@ export class Stage {
     this.#camera.far = orbit.distance * 20 + 2000;
     this.#camera.lookAt(...orbit.target);
     this.#camera.updateProjectionMatrix();
-    this.#pace();
+    this.#move();
     // The light comes over the left shoulder, wherever one looks from.
     this.#sun.position.set(-0.45, 0.55, 0.7).applyQuaternion(this.#camera.quaternion);
     this.redraw();
@@ -188,11 +194,14 @@ export class Stage {
 
   clearBeads(): void {
     this.#beads.clear();
+    this.#pace = unhurried;
     this.redraw();
   }
 
   addBeads(moves: Moves, colours: Uint8Array<ArrayBuffer>): void {
     this.#beads.add(moves, colours);
+    // Frames are slow while moves are read: that says nothing about the device.
+    this.#pace = unhurried;
     this.redraw();
   }
 
@@ -208,6 +217,9 @@ export class Stage {
   }
 
   showBeads(layer: number, moves: number): void {
+    const [before, some] = this.#shown;
+    if (layer !== before || moves !== some) this.#move();
+    this.#shown = [layer, moves];
     this.#beads.show(layer, moves);
     this.redraw();
   }
@@ -252,34 +264,52 @@ export class Stage {
     this.redraw();
   }
 
-  /** Watches how fast the picture moves: a slow device draws less until it stands still. */
-  #pace(): void {
-    const now = performance.now();
-    const since = now - this.#looked;
-    this.#looked = now;
-    if (since < STILL) this.#slowness = 0.7 * this.#slowness + 0.3 * since;
-    if (this.#slowness > SLOW_FRAME) this.#beads.coarse(true);
-    clearTimeout(this.#rest);
-    this.#rest = window.setTimeout(() => {
-      this.#beads.coarse(false);
+  /** The picture moves: a slow device draws less of it until it rests. */
+  #move(): void {
+    clearTimeout(this.#moving);
+    this.#moving = window.setTimeout(() => {
+      this.#moving = 0;
+      this.#pace = rested(this.#pace);
+      this.#beads.coarse(0);
       this.redraw();
     }, STILL);
+    this.#beads.coarse(this.#pace.detail);
   }
 
-  /** Draws in the next frame. */
+  /** Draws in the next frame, or as soon as the graphics card has caught up. */
   redraw(): void {
+    this.#stale = true;
     if (this.#waiting) return;
     this.#waiting = true;
-    requestAnimationFrame(() => {
-      this.#waiting = false;
-      if (this.#orbit !== undefined) this.#renderer.render(this.#scene, this.#camera);
-      if (this.#beads.thin()) this.redraw();
-    });
+    requestAnimationFrame(this.#step);
+  }
+
+  #step = (now: number): void => {
+    this.#waiting = false;
+    if (this.#orbit === undefined) return;
+    this.#queue.settle(now, (ms) => this.#timed(ms));
+    if (this.#stale && !this.#queue.isFull()) {
+      this.#stale = false;
+      this.#renderer.render(this.#scene, this.#camera);
+      this.#queue.add(now);
+      if (this.#beads.thin(THIN)) this.#stale = true;
+    }
+    if (!this.#stale && this.#queue.isEmpty()) return;
+    this.#waiting = true;
+    requestAnimationFrame(this.#step);
+  };
+
+  /** A frame has been drawn, which took `ms`. */
+  #timed(ms: number): void {
+    if (!this.#beads.group.visible) return;
+    this.#pace = this.#moving === 0 ? whole(this.#pace, ms) : paced(this.#pace, ms);
+    if (this.#moving !== 0) this.#beads.coarse(this.#pace.detail);
   }
 
   /** Gives everything back; nothing is drawn any more. */
   dispose(): void {
     this.#orbit = undefined;
+    clearTimeout(this.#moving);
     this.forget();
     this.#beads.clear();
     this.#renderer.dispose();
