@@ -105,7 +105,11 @@ fn along(area: &Area) -> Vec<DVec2> {
 /// Points inside, 0.07 mm apart.
 fn samples(area: &Area) -> Vec<DVec2> {
     const STEP: f64 = 0.07;
-    let edges = edges(area);
+    // Rows lie askew, so that no straight outline runs along one.
+    let turn = DVec2::from_angle(0.4);
+    let back = DVec2::new(turn.x, -turn.y);
+    let turned = edges(area).into_iter().map(|edge| edge.map(|p| p.rotate(turn)));
+    let edges: Vec<[DVec2; 2]> = turned.collect();
     let rows = |f: fn(f64, f64) -> f64, start: f64| edges.iter().map(|e| e[0].y).fold(start, f);
     let (low, high) = (rows(f64::min, f64::MAX), rows(f64::max, f64::MIN));
     let mut points = Vec::new();
@@ -118,7 +122,9 @@ fn samples(area: &Area) -> Vec<DVec2> {
         crossings.sort_by(f64::total_cmp);
         for pair in crossings.chunks_exact(2) {
             let first = (pair[0] / STEP).ceil() as i64;
-            points.extend((first..=(pair[1] / STEP) as i64).map(|i| DVec2::new(i as f64 * STEP, y)));
+            points.extend(
+                (first..=(pair[1] / STEP) as i64).map(|i| DVec2::new(i as f64 * STEP, y).rotate(back)),
+            );
         }
     }
     points

@@ -72,6 +72,19 @@ fn a_strip_is_one_straight_bead_of_its_width() {
     }
 }
 
+/// Its end is square, and the triangles there have corners of their own.
+#[test]
+fn a_strip_as_long_as_a_multiple_of_its_width_ends_like_any_other() {
+    for length in [4.0, 4.1, 34.0] {
+        let beads = fill(&area(&[(0.0, 0.0), (length, 0.0), (length, 0.4), (0.0, 0.4)]));
+        assert_eq!(beads.paths.len(), 1);
+        let inset = ThinFill::default().end_inset * 0.4;
+        let points = &beads.paths[0].points;
+        let ends = [points[0].x, length - points[points.len() - 1].x];
+        assert!(ends.iter().all(|end| (end - inset).abs() < 0.02), "{length}: {ends:?}");
+    }
+}
+
 #[test]
 fn a_turned_strip_keeps_its_length_and_width() {
     for (x, y) in [(10.0, 7.0), (-3.0, 11.0), (12.0, 0.5)] {

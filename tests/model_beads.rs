@@ -120,11 +120,21 @@ struct Extrusion<'a> {
 }
 
 impl Extrusion<'_> {
-    /// Whether this is a line of a bridge and no narrower bead in a gap or wedge: 95 % of the usual area
-    /// make a bead of 0.43 mm.
-    fn is_usual(&self) -> bool {
-        (self.width - 0.4296).abs() < 0.001
+    fn length(&self) -> f64 {
+        self.from.distance(self.to)
     }
+}
+
+/// How far the nearest line beside `step` is that runs along it, mm.
+fn distance_to_next(step: &Extrusion<'_>, layer: &[Extrusion<'_>]) -> Option<f64> {
+    let along = (step.to - step.from).normalize();
+    let is_beside = |it: &&Extrusion<'_>| {
+        let turn = (it.to - it.from).normalize_or_zero().perp_dot(along).abs();
+        let reach = [it.from, it.to].map(|p| (p - step.from).dot(along));
+        turn < 3e-4 && reach[0].min(reach[1]) < step.length() && reach[0].max(reach[1]) > 0.0
+    };
+    let distances = layer.iter().filter(is_beside).map(|it| (it.from - step.from).perp_dot(along).abs());
+    distances.filter(|&d| d > 0.1).min_by(f64::total_cmp)
 }
 
 /// All extruding moves of the text's layers, read word by word.
@@ -179,20 +189,21 @@ fn bridges_have_their_own_flow_and_fan() {
     let text = String::from_utf8(print.text).expect("ASCII");
     let bridges: Vec<Extrusion<'_>> =
         extrusions(&text).into_iter().filter(|m| m.kind == "Bridge infill").collect();
-    let full = Bead { width: 0.45, height: 0.2 }.area() / filament_area(1.75);
-    let (mut usual, mut all) = (0.0, 0.0);
-    for step in &bridges {
-        let length = step.from.distance(step.to);
-        assert_eq!(step.fan, 204.0, "0.8 of 255");
-        all += length;
-        // Narrower in wedges and gaps.
-        if length > 0.5 && step.is_usual() {
-            let share = step.e / length / full;
-            assert!((share - 0.95).abs() < 0.01, "{share} of the usual flow: {step:?}");
-            usual += length;
+    let (mut spread, mut all) = (0.0, 0.0);
+    for layer in bridges.chunk_by(|a, b| a.layer == b.layer) {
+        assert!(layer.iter().all(|step| step.fan == 204.0), "0.8 of 255");
+        all += layer.iter().map(Extrusion::length).sum::<f64>();
+        // Lines are spread over the bridge, each with the plastic for its share of the width.
+        for step in layer.iter().filter(|step| step.length() > 0.5) {
+            let Some(distance) = distance_to_next(step, layer) else { continue };
+            let share = step.e * filament_area(1.75) / (step.length() * distance * step.height);
+            if share > 0.9 {
+                assert!((share - 0.95).abs() < 0.01, "{share} of the usual flow: {step:?}");
+                spread += step.length();
+            }
         }
     }
-    assert!(usual > 0.8 * all, "{usual} of {all} mm");
+    assert!(spread > 0.8 * all, "{spread} of {all} mm");
 }
 
 /// What rounding does to a move: its ends stand in the text to 0.001 mm, its filament to 0.00001 mm, and

@@ -353,9 +353,12 @@ struct Neighbours<'a> {
     exposures: &'a [Exposure],
 }
 
-/// Lines along a bridge with this share of the usual plastic, and what is too narrow for them.
+/// Lines along a bridge with this share of the usual plastic, and what is too narrow for them. Nothing
+/// beside a bridge carries a strip that they leave, so they are spread over all of it.
 fn fill_bridge(bridge: &Bridge, bead: Bead, flow: f64) -> (Vec<Path>, PolygonSet) {
-    let hatch = Hatch::along(bridge.direction, bead.spacing());
+    let usual = Hatch::along(bridge.direction, bead.spacing());
+    let hatch = usual.fitted(&bridge.area).unwrap_or(usual);
+    let bead = Bead { width: bead.width + hatch.distance() - usual.distance(), ..bead };
     let (paths, narrow) = hatch_linked(&bridge.area, Role::Bridge, bead, hatch);
     let thinned = |width: f64| Bead { width, ..bead }.with_flow(flow).width;
     let with_flow = |path: Path| {

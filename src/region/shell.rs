@@ -15,7 +15,7 @@ crate::options! {
         monotonic: bool = true, "Monotonic skins";
         /// How far skins and solid infill reach into the innermost wall, as a share of the line width,
         /// so that they hold together.
-        overlap: f64 = 0.1, "Skin overlap", "", 0.0..=0.5;
+        overlap: f64 = 0.2, "Skin overlap", "", 0.0..=0.5;
         /// Plastic in a bridge's lines, as a share of the usual: a little less keeps them taut.
         bridge_flow: f64 = 0.95, "Bridge flow", "", 0.1..=2.0;
     }

@@ -25,6 +25,12 @@ pub struct Hatch {
     phase: f64,
 }
 
+/// Fitted lines stay this far inside, mm: ten steps of the polygons' grid.
+const FIT_SLACK: f64 = 1e-3;
+
+/// Fitted lines lie farther apart or closer together by at most this share.
+const MOST_CHANGED: f64 = 0.2;
+
 impl Hatch {
     /// Lines at 45 degrees on even layers, at 135 degrees on odd ones.
     pub fn diagonal(layer: u32, distance: f64) -> Hatch {
@@ -41,6 +47,26 @@ impl Hatch {
     /// Lines along this unit vector.
     pub fn along(direction: DVec2, distance: f64) -> Hatch {
         Hatch { direction, distance, phase: 0.5 }
+    }
+
+    /// As many of these lines as the area holds across, spread evenly over it, so that no strip is left
+    /// along its sides; `None` where lines would be moved too far apart or together for that.
+    pub fn fitted(self, area: &PolygonSet) -> Option<Hatch> {
+        let across = || area.contours().iter().flat_map(|c| &c.points).map(|&p| self.to_frame(p).y);
+        // The outermost lines must not run along the border of where lines may run, but inside it.
+        let (low, high) = (across().reduce(f64::min)? + FIT_SLACK, across().reduce(f64::max)? - FIT_SLACK);
+        let distance = (high - low) / ((high - low) / self.distance).round().max(1.0);
+        let change = (distance / self.distance - 1.0).abs();
+        (change <= MOST_CHANGED).then(|| Hatch {
+            distance,
+            phase: (low / distance + 0.5).rem_euclid(1.0),
+            ..self
+        })
+    }
+
+    /// Distance between neighbouring lines, mm.
+    pub fn distance(self) -> f64 {
+        self.distance
     }
 
     fn to_frame(self, p: DVec2) -> DVec2 {
@@ -306,20 +332,28 @@ const LOWEST_CAP: f64 = 0.3;
 const NARROWEST_CAP: f64 = 1.0;
 
 /// What of `area` lies beyond lines that have no neighbour on one side: up to a line's distance from
-/// the border that runs along them.
+/// the border that runs along them, where the area ends and beside its holes.
 fn caps(area: &PolygonSet, core: &PolygonSet, weave: &Weave, half: f64) -> PolygonSet {
     let hatch = weave.hatch;
     let cap = |here: usize| {
-        let there = weave.partner[here];
-        let points = (weave.next[here] == there).then(|| border_between(weave, core, here, there, true))?;
+        let there = weave.next[here];
         let (a, b) = (&weave.crossings[here], &weave.crossings[there]);
+        let turns_back = a.line == b.line && here != there;
+        let points = turns_back.then(|| border_between(weave, core, here, there, true))?;
         let level = hatch.offset_of(a.line);
         let heights = points.iter().map(|&p| hatch.to_frame(p).y - level);
         let top = heights.max_by(|p, q| p.abs().total_cmp(&q.abs()))?;
-        let (low, high) = (level + half * top.signum(), level + (top.abs() + 2.0 * half) * top.signum());
+        // A piece of the line ends the area here, or the border bends away from the next line.
+        let (bare, height) = if weave.partner[here] == there {
+            (level, top)
+        } else {
+            (level + 2.0 * half * top.signum(), top - 2.0 * half * top.signum())
+        };
+        let (low, high) = (bare + half * height.signum(), bare + height + 2.0 * half * height.signum());
         let corners =
             [(a.u, low), (b.u, low), (b.u, high), (a.u, high)].map(|(u, v)| hatch.to_plane(dvec2(u, v)));
-        let large = top.abs() >= LOWEST_CAP * 2.0 * half && (b.u - a.u).abs() >= NARROWEST_CAP * 2.0 * half;
+        let large =
+            height.abs() >= LOWEST_CAP * 2.0 * half && (b.u - a.u).abs() >= NARROWEST_CAP * 2.0 * half;
         large.then(|| Contour::new(corners.to_vec()))
     };
     let boxes: Vec<Contour> = (0..weave.crossings.len()).filter_map(cap).collect();
@@ -512,6 +546,42 @@ mod tests {
             assert!((plastic(&paths) / 400.0 - 1.0).abs() < 0.005, "{}", plastic(&paths));
             assert!(paths.len() <= 3, "{} beads", paths.len());
         }
+    }
+
+    /// Lines along the sides of a hole leave a strip of up to a line's distance on each.
+    #[test]
+    fn strips_beside_a_hole_along_the_lines_are_told() {
+        let block = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(20.0, 20.0));
+        for tenth in 0..10 {
+            let low = 6.0 + 0.1 * BEAD.spacing() * f64::from(tenth);
+            let hole = PolygonSet::rectangle(dvec2(low, 7.0), dvec2(low + 5.5, 13.0));
+            let area = block.difference(&hole);
+            let hatch = Hatch::along(dvec2(0.0, 1.0), BEAD.spacing());
+            let (paths, narrow) = hatch_linked(&area, Role::SolidInfill, BEAD, hatch);
+            // Strips lower than LOWEST_CAP stay: on two sides of the hole and of the block.
+            let least = LOWEST_CAP * BEAD.spacing() * (2.0 * 6.0 + 2.0 * 20.0);
+            let open = area.area() - plastic(&paths) - narrow.area();
+            assert!((-1.0..least).contains(&open), "{tenth}: {open} mm2");
+            let (_, narrow) = hatch_monotonic(&area, Role::TopSkin, BEAD, hatch);
+            assert!((-1.0..least).contains(&(area.area() - plastic(&paths) - narrow.area())));
+        }
+    }
+
+    #[test]
+    fn fitted_lines_fill_a_strip_of_any_width_from_side_to_side() {
+        for tenth in 0..30 {
+            let width = 2.0 + 0.1 * BEAD.spacing() * f64::from(tenth);
+            let strip = PolygonSet::rectangle(dvec2(3.0, 1.7), dvec2(43.0, 1.7 + width));
+            let hatch = Hatch::along(DVec2::X, BEAD.spacing()).fitted(&strip).expect("little changed");
+            let bead = Bead { width: BEAD.width + hatch.distance - BEAD.spacing(), ..BEAD };
+            let (paths, narrow) = hatch_linked(&strip, Role::Bridge, bead, hatch);
+            let filled: f64 = paths.iter().map(|p| p.length() * hatch.distance).sum();
+            assert!((filled / strip.area() - 1.0).abs() < 0.02, "{width}: {filled}");
+            assert!(narrow.is_empty());
+        }
+        // A strip of a line and a half is for other beads.
+        let strip = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(40.0, 1.45 * BEAD.spacing()));
+        assert_eq!(Hatch::along(DVec2::X, BEAD.spacing()).fitted(&strip), None);
     }
 
     #[test]

@@ -9,6 +9,9 @@ use crate::sort::StableSort;
 /// of 77 degrees 0.6.
 pub(super) const SPUR_REACH: f64 = 0.6;
 
+/// The same along the branch, which a coarse triangulation bends: a right angle's may reach 0.62 radii.
+const MOST_BENT: f64 = 0.8;
+
 /// Junctions closer than this, in radii of the smaller circle, are one: a crossing whose arms are a
 /// little out of line.
 const SAME_JUNCTION: f64 = 0.6;
@@ -152,8 +155,9 @@ fn without_spurs(nodes: &[Node], branches: Vec<Branch>) -> Vec<Branch> {
             continue;
         }
         let spur = |&h: &Half| {
-            let reach = reach(nodes, &halves, &branches[h / 2], h, junction.radius)?;
-            (reach <= SPUR_REACH * junction.radius).then_some((reach, h))
+            let [straight, along] = reach(nodes, &halves, &branches[h / 2], h, junction)?;
+            let is_short = straight <= SPUR_REACH * junction.radius && along <= MOST_BENT * junction.radius;
+            is_short.then_some((along, h))
         };
         let mut spurs: Vec<(f64, Half)> = halves_here.iter().filter_map(spur).collect();
         spurs.stable_sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -166,14 +170,25 @@ fn without_spurs(nodes: &[Node], branches: Vec<Branch>) -> Vec<Branch> {
     branches.into_iter().zip(dropped).filter(|(_, dropped)| !dropped).map(|(b, _)| b).collect()
 }
 
-/// How far a branch that ends freely reaches beyond the circle at its junction, mm.
-fn reach(nodes: &[Node], halves: &[Vec<Half>], branch: &Branch, half: Half, radius: f64) -> Option<f64> {
+/// How far a branch that ends freely reaches beyond the circle at its junction, straight and along it, mm.
+fn reach(
+    nodes: &[Node],
+    halves: &[Vec<Half>],
+    branch: &Branch,
+    half: Half,
+    junction: &Sample,
+) -> Option<[f64; 2]> {
     let far = branch.ends?[1 - half % 2] as usize;
     if halves[far].len() != 1 {
         return None;
     }
     let last = end_of(&branch.line, half.is_multiple_of(2))?;
-    Some(length(&branch.line) + tip(nodes[far], last) - radius)
+    let straight = match nodes[far] {
+        Node::End { corner } => junction.at.distance(corner),
+        Node::Junction(end) => junction.at.distance(end.at) + end.radius,
+    };
+    let along = length(&branch.line) + tip(nodes[far], last);
+    Some([straight - junction.radius, along - junction.radius])
 }
 
 fn end_of(line: &[Sample], last: bool) -> Option<Sample> {
