@@ -32,27 +32,20 @@ struct Miss {
 
 const AIM: Miss = Miss { name: "", layers: None, covered: 0.99, short_of: 0.05, past: 0.002 };
 
-/// What misses the aim. Beside raised letters 0.4 mm high, and where the tip of a narrowing slot parts two
-/// walls, spots of up to 0.05 mm2 stay open; where the first layer of a bridge or a raised letter begins, at
-/// the root of a thin wall on the first layer, on layers of a few mm2, and on the steep dome of a torus of
-/// 3 mm too.
+/// What misses the aim: corners of raised letters 0.4 mm high and of letters of about a line's width, where a
+/// bead turns before the corner; the tip of a narrowing slot that parts two walls; layers of a few mm2 (a line
+/// of letters, the dome of a torus of 3 mm).
 const NOT_YET: &[Miss] = &[
-    Miss {
-        name: "overhang.stl",
-        layers: Some(&[40, 59, 107, 109, 110, 112, 113, 114, 115, 116, 117, 118, 141, 142, 143, 156]),
-        covered: 0.978,
-        short_of: 0.12,
-        ..AIM
-    },
-    Miss { name: "angle_block_mm.stl", layers: Some(&[0, 90, 113]), covered: 0.986, short_of: 0.16, ..AIM },
+    Miss { name: "overhang.stl", layers: Some(&[117, 118]), covered: 0.985, short_of: 0.1, ..AIM },
+    Miss { name: "overhang.stl", layers: Some(&[109, 114, 136, 141, 143, 156]), short_of: 0.12, ..AIM },
+    Miss { name: "angle_block_mm.stl", layers: Some(&[90, 113]), short_of: 0.16, ..AIM },
     Miss { name: "bridge_test.stl", layers: Some(&[10, 20, 30, 80, 90]), short_of: 0.28, ..AIM },
-    Miss { name: "thin_wall.stl", layers: Some(&[0]), short_of: 0.1, ..AIM },
-    Miss { name: "tolerance.stl", layers: Some(&[0, 59]), covered: 0.989, ..AIM },
-    Miss { name: "hollow_cube_ascii.stl", layers: Some(&[95]), covered: 0.988, ..AIM },
+    Miss { name: "bridge_test.stl", layers: Some(&[100]), covered: 0.984, past: 0.006, ..AIM },
+    Miss { name: "halfdonut_ascii_tiny.stl", layers: Some(&[4, 10]), covered: 0.985, ..AIM },
     Miss {
         name: "halfdonut_ascii_tiny.stl",
         layers: Some(&[2, 5, 6, 7, 8, 9, 12]),
-        covered: 0.983,
+        covered: 0.989,
         past: 0.007,
         ..AIM
     },
