@@ -40,6 +40,12 @@ test('a layer says its height', () => {
   const bytes = (text: string): Uint8Array => new TextEncoder().encode(text);
   expect(heightOf(bytes('M83\n;LAYER_CHANGE\n;Z:0.6\nG1 Z0.6\n'))).toBe('0.6');
   expect(heightOf(bytes('G1 X1\n'))).toBe('');
+  expect(['19.850', '20.00', '100', '0.6'].map((z) => heightOf(bytes(`;Z:${z}\n`)))).toEqual([
+    '19.85',
+    '20',
+    '100',
+    '0.6',
+  ]);
 });
 
 test('only a model beside the page can be named in its address', () => {

@@ -167,6 +167,7 @@ export const de: Words = {
     fix: (setting: string) => `${setting} setzen und neu slicen`,
   },
   settings: {
+    show: 'Einstellung zeigen',
     heading: 'Einstellungen',
     own: (part: string) => `Einstellungen für ${part}`,
     depth: 'Wie viele Einstellungen',
@@ -191,7 +192,7 @@ export const de: Words = {
     printer: 'Drucker',
     material: 'Material',
     quality: 'Qualität',
-    own: 'Eigene Einstellungen',
+    none: { printer: 'Drucker wählen …', material: 'Material wählen …', quality: 'Wie eingestellt' },
     ofModels: (names: string) =>
       `Einstellungen einzelner Modelle wurden ausgelassen (${names}): Teil wählen und dort einstellen.`,
     imported: (name: string, count: number) => `${name}: ${count} Einstellungen übernommen.`,

@@ -170,6 +170,7 @@ export const en = {
     fix: (setting: string) => `Set ${setting} and slice again`,
   },
   settings: {
+    show: 'Show the setting',
     heading: 'Settings',
     own: (part: string) => `Settings for ${part}`,
     depth: 'How many settings',
@@ -194,7 +195,7 @@ export const en = {
     printer: 'Printer',
     material: 'Material',
     quality: 'Quality',
-    own: 'Own settings',
+    none: { printer: 'Choose your printer …', material: 'Choose your material …', quality: 'As the settings say' },
     ofModels: (names: string) =>
       `Settings of single models were left out (${names}): choose the part and give it its own.`,
     imported: (name: string, count: number) => `${name}: ${count} settings taken over.`,

@@ -69,6 +69,11 @@ export function shownAt(depth: Depth, groups: readonly Group[]): readonly Group[
   }
 }
 
+/** The least depth that shows a setting. */
+export function depthOf(path: string, groups: readonly Group[]): Depth | undefined {
+  return depths.find((depth) => shownAt(depth, groups).some(({ fields }) => fields.some((it) => it.path === path)));
+}
+
 /** The groups with the fields that a search finds: every word stands in its label (English, and as `labelOf` says it), its path or its help. */
 export function found(
   groups: readonly Group[],

@@ -125,6 +125,11 @@ function limits(schema: Schema): Limits {
   };
 }
 
+/** The path of the setting that an error of the engine is about: its message begins with it. */
+export function pathIn(message: string): string | undefined {
+  return /^([a-z]\w*(?:\.[a-z]\w*)+): /.exec(message)?.[1];
+}
+
 /** The last part of a path as a label: `first_layer` -> "First layer". */
 export function words(path: string): string {
   const last = path.split('.').at(-1)?.replaceAll('_', ' ') ?? '';

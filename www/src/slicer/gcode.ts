@@ -71,5 +71,6 @@ const HEAD = 4096;
 /** A layer's height above the bed, mm, as its text says it; empty when it does not. */
 export function heightOf(layer: Uint8Array): string {
   const found = (text: Uint8Array): string | undefined => /^;Z:([\d.]+)\n/m.exec(new TextDecoder().decode(text))?.[1];
-  return found(layer.subarray(0, HEAD)) ?? found(layer) ?? '';
+  const height = found(layer.subarray(0, HEAD)) ?? found(layer) ?? '';
+  return height.replace(/\.0*$|(\.\d*?)0+$/, '$1');
 }

@@ -9,10 +9,12 @@ import type { Painter } from '../view/painter.ts';
 import './job-bar.ts';
 import './learn-step.ts';
 import './page-menu.ts';
+import type { PrepareStep } from './prepare-step.ts';
 import './prepare-step.ts';
 import './preview-step.ts';
 import './print-step.ts';
 import { problemBox } from './problem-box.ts';
+import type { SettingsForm } from './settings-form.ts';
 import './step-bar.ts';
 import { StepPart } from './step-part.ts';
 import { surroundings } from './surroundings.ts';
@@ -86,7 +88,14 @@ export class FootholdApp extends StepPart {
         ></page-menu>
       </div>
       <div class="page ${step === 'learn' ? 'learning' : ''}" role=${isPage ? 'main' : nothing}>
-        <div class="panel" part="panel" id="panel" role="tabpanel" aria-labelledby="tab-${step}">
+        <div
+          class="panel"
+          part="panel"
+          id="panel"
+          role="tabpanel"
+          aria-labelledby="tab-${step}"
+          @show-setting=${({ detail }: CustomEvent<string>) => void this.#showSetting(detail)}
+        >
           <slot name="notice"></slot>
           ${isBusy(this.state) ? nothing : this.#news()}
           ${typeof engine === 'string' ? nothing : problemBox(engine)}
@@ -141,11 +150,21 @@ export class FootholdApp extends StepPart {
       .ready=${this.state.model.kind === 'open'}
       .done=${this.state.result !== undefined}
       .stale=${isStale(this.state)}
+      .fixed=${this.state.frame === 'locked'}
       @slice=${() => void this.session?.slice()}
       @mend=${({ detail }: CustomEvent<Edit>) => void this.session?.mend(detail)}
       @cancel=${() => this.session?.cancel()}
       @download=${() => this.session?.download()}
     ></job-bar>`;
+  }
+
+  /** Goes to a setting of the plate, from whichever step. */
+  async #showSetting(path: string): Promise<void> {
+    this.store?.update({ step: 'prepare' });
+    await this.updateComplete;
+    const step = this.querySelector<PrepareStep>('prepare-step');
+    await step?.updateComplete;
+    await step?.querySelector<SettingsForm>(':scope > settings-form')?.reveal(path);
   }
 
   /** What a screen reader is told, a few times in a job. */

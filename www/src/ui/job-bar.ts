@@ -6,13 +6,14 @@ import { type JobState, shareOf } from '../state.ts';
 import { Part } from './part.ts';
 import { problemBox } from './problem-box.ts';
 
-/** Sends `slice`, `cancel` and `download`, and `mend` with an Edit for every part. */
+/** Sends `slice`, `cancel` and `download`, `mend` with an Edit for every part, `show-setting` with a path. */
 export class JobBar extends Part {
   static override properties = {
     job: { attribute: false },
     ready: { type: Boolean },
     done: { type: Boolean },
     stale: { type: Boolean },
+    fixed: { type: Boolean },
   };
   declare job: JobState;
   /** There is a model to slice. */
@@ -20,6 +21,8 @@ export class JobBar extends Part {
   /** There is G-code to download. */
   declare done: boolean;
   declare stale: boolean;
+  /** The settings cannot be changed. */
+  declare fixed: boolean;
 
   constructor() {
     super();
@@ -27,6 +30,7 @@ export class JobBar extends Part {
     this.ready = false;
     this.done = false;
     this.stale = false;
+    this.fixed = false;
   }
 
   protected override render(): TemplateResult {
@@ -75,7 +79,11 @@ export class JobBar extends Part {
       case 'done':
         return this.stale ? html`<p class="remark">${t.job.stale}</p>` : nothing;
       case 'failed':
-        return problemBox(this.job.problem, (fix) => this.tell<Edit>('mend', fix));
+        return problemBox(
+          this.job.problem,
+          (fix) => this.tell<Edit>('mend', fix),
+          this.fixed ? undefined : (path) => this.tell<string>('show-setting', path),
+        );
       case 'running': {
         const { stage, done, total } = this.job.progress;
         return html`

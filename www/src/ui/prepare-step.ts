@@ -125,7 +125,7 @@ export class PrepareStep extends StepPart {
             : nothing
         }
       </div>
-      ${trouble === undefined ? nothing : problemBox(trouble)}
+      ${trouble === undefined ? nothing : problemBox(trouble, undefined, (path) => this.tell<string>('show-setting', path))}
     `;
   }
 

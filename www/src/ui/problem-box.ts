@@ -3,11 +3,20 @@ import { html, nothing, type TemplateResult } from 'lit';
 import type { ProblemName } from '../i18n/en.ts';
 import { t } from '../i18n/text.ts';
 import type { Edit } from '../messages.ts';
+import { pathIn } from '../settings/fields.ts';
 import type { Problem } from '../state.ts';
 
-/** `mend` makes the change that the problem proposes; without it none is offered. */
-export function problemBox(problem: Problem, mend?: (fix: Edit) => void): TemplateResult {
+/**
+ * `mend` makes the change that the problem proposes, `show` goes to the setting that it is about; without them
+ * neither is offered.
+ */
+export function problemBox(
+  problem: Problem,
+  mend?: (fix: Edit) => void,
+  show?: (path: string) => void,
+): TemplateResult {
   const { fix } = problem;
+  const path = problem.name === 'SettingsError' ? pathIn(problem.message) : undefined;
   const known = t.problem[problem.name in t.problem ? (problem.name as ProblemName) : 'InternalError'];
   return html`
     <div class="problem" role="alert">
@@ -18,6 +27,11 @@ export function problemBox(problem: Problem, mend?: (fix: Edit) => void): Templa
         fix === undefined || mend === undefined
           ? nothing
           : html`<button type="button" class="button small" @click=${() => mend(fix)}>${nameOf(fix)}</button>`
+      }
+      ${
+        path === undefined || show === undefined
+          ? nothing
+          : html`<button type="button" class="button small" @click=${() => show(path)}>${t.settings.show}</button>`
       }
     </div>
   `;

@@ -45,7 +45,7 @@ export class ProfileChooser extends Part {
     return html`<div class="field">
       <label for="profile-${kind}">${t.profiles[kind]}</label>
       <select id="profile-${kind}" .value=${chosen} @change=${change}>
-        <option value="" ?selected=${chosen === ''}>${t.profiles.own}</option>
+        <option value="" ?selected=${chosen === ''}>${t.profiles.none[kind]}</option>
         ${offered[kind].map((it) => html`<option value=${it.id} ?selected=${chosen === it.id}>${nameOf(it)}</option>`)}
       </select>
     </div>`;

@@ -3,7 +3,7 @@ import { html, nothing, type TemplateResult } from 'lit';
 import { groupLabel, labelOf, valueLabel } from '../i18n/settings.ts';
 import { spoken, t } from '../i18n/text.ts';
 import { type Changes, fault, parse } from '../settings/changes.ts';
-import { type Depth, depths, found, shownAt } from '../settings/depths.ts';
+import { type Depth, depthOf, depths, found, shownAt } from '../settings/depths.ts';
 import { type Field, type Group, groupsOf, type Schema, type Value } from '../settings/fields.ts';
 import { Part } from './part.ts';
 
@@ -25,6 +25,7 @@ export class SettingsForm extends Part {
     faults: { state: true },
     depth: { state: true },
     search: { state: true },
+    pointed: { state: true },
   };
   declare schema: Schema | undefined;
   /** The settings that the part can have; fields default to what the plate has. */
@@ -36,6 +37,8 @@ export class SettingsForm extends Part {
   declare faults: Readonly<Record<string, string>>;
   declare depth: Depth;
   declare search: string;
+  /** Path of the setting that somebody is led to. */
+  declare pointed: string | undefined;
   #groups: readonly Group[] = [];
 
   constructor() {
@@ -47,6 +50,7 @@ export class SettingsForm extends Part {
     this.faults = {};
     this.depth = 'basic';
     this.search = '';
+    this.pointed = undefined;
   }
 
   protected override willUpdate(changed: Map<string, unknown>): void {
@@ -112,6 +116,23 @@ export class SettingsForm extends Part {
     this.search = '';
   }
 
+  /** Shows a setting in the depth and group that have it, marks it and takes the focus there. */
+  async reveal(path: string): Promise<void> {
+    const depth = depthOf(path, this.#groups);
+    if (depth === undefined) return;
+    if (!shownAt(this.depth, this.#groups).some(({ fields }) => fields.some((it) => it.path === path))) {
+      this.depth = depth;
+    }
+    this.search = '';
+    this.pointed = path;
+    await this.updateComplete;
+    const row = this.querySelector<HTMLElement>('.field.pointed');
+    const group = row?.closest('details');
+    if (group) group.open = true;
+    row?.scrollIntoView({ block: 'center' });
+    row?.querySelector<HTMLElement>('input, select, textarea')?.focus({ preventScroll: true });
+  }
+
   #files(changed: boolean): TemplateResult {
     return html`<span class="row tight">
       ${changed ? link(t.settings.resetAll, () => this.tell('settings-reset')) : nothing}
@@ -152,7 +173,7 @@ export class SettingsForm extends Part {
   #row(field: Field, where: string): TemplateResult {
     const id = this.own === undefined ? `${where}-${field.path}` : `own-${where}-${field.path}`;
     const changed = field.path in this.changes;
-    return html`<div class="field ${changed ? 'changed' : ''} ${field.kind}">
+    return html`<div class="field ${changed ? 'changed' : ''} ${field.kind} ${field.path === this.pointed ? 'pointed' : ''}">
       <label for=${id}>${labelOf(field, spoken())}</label>
       ${this.#control(field, id)}
       <span class="unit">${'unit' in field ? t.settings.unit(field.unit) : ''}</span>
@@ -220,6 +241,7 @@ export class SettingsForm extends Part {
   #set(field: Field, value: Value): void {
     const { [field.path]: _, ...others } = this.faults;
     this.faults = others;
+    if (field.path === this.pointed) this.pointed = undefined;
     this.tell<SettingChange>('setting-change', { field, value });
     this.requestUpdate();
   }
