@@ -6,6 +6,8 @@ use std::cell::RefCell;
 
 use clipper2_rust::{ClipType, Clipper64, FillRule, Path64, Paths64, Point64};
 
+use super::measure::Bounds;
+use super::sets::groups_of;
 use super::{Contour, DVec2, GRID_PER_MM, PolygonSet, dvec2, grid_steps};
 
 /// A connected area smaller than this is a rounding artefact, mm2 (100 grid cells).
@@ -32,6 +34,26 @@ impl PolygonSet {
             return PolygonSet::EMPTY;
         }
         run(ClipType::Difference, to_paths(self.contours()), to_paths(other.contours()))
+    }
+
+    /// Like [`PolygonSet::difference`], each group of contours whose boxes hang together by itself: the library's
+    /// time grows with the number of edges that a level line meets, whether or not they have to do with each other.
+    pub fn difference_by_groups(&self, other: &PolygonSet) -> PolygonSet {
+        let contours: Vec<&Contour> = self.contours().iter().chain(other.contours()).collect();
+        let boxes: Vec<Bounds> = contours.iter().filter_map(|c| c.bounds()).collect();
+        let groups = groups_of(&boxes, 0.0);
+        if groups.len() < 2 || boxes.len() < contours.len() {
+            return self.difference(other);
+        }
+        let count = self.contours().len();
+        let of = |members: &[usize]| members.iter().map(|&i| contours[i].clone()).collect();
+        let left = groups.iter().flat_map(|group| {
+            let own = group.partition_point(|&i| i < count);
+            let [subject, clip] =
+                [&group[..own], &group[own..]].map(|members| PolygonSet::canonical(of(members)));
+            subject.difference(&clip).into_contours()
+        });
+        PolygonSet::canonical(left.collect())
     }
 
     /// Like [`PolygonSet::difference`] where contours of `self` may overlap, or run to and fro on one line:

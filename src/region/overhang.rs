@@ -6,6 +6,7 @@
 use super::reach::Reach;
 use crate::polygon::island::{Island, inner_point};
 use crate::polygon::measure::Bounds;
+use crate::polygon::sets::groups_of;
 use crate::polygon::trig::tan;
 use crate::polygon::{Join, PolygonSet};
 
@@ -44,7 +45,7 @@ pub fn externally_supported(above: &PolygonSet, below: &PolygonSet, step: f64) -
     if reach.holds(above) {
         return PolygonSet::EMPTY;
     }
-    let overhang = above.difference(below);
+    let overhang = above.difference_by_groups(below);
     let islands = Island::all_of(&overhang);
     let mut reaching: Vec<bool> = islands.iter().map(|island| reach.is_left_by(island)).collect();
     let is_open = |(island, reaches): (&Island, &bool)| !reaches && !reach.holds_island(island);
@@ -66,14 +67,19 @@ pub fn need(above: &PolygonSet, below: &PolygonSet, step: f64, opening: f64) -> 
 
 /// What of the islands that are not `settled` lies outside the permissible overhang of `below`.
 fn outside_growth(islands: &[Island], settled: &[bool], below: &PolygonSet, step: f64) -> PolygonSet {
-    let open = || islands.iter().zip(settled).filter(|(_, settled)| !**settled).map(|(island, _)| island);
-    let Some(bounds) = open().map(|island| island.bounds).reduce(Bounds::union) else {
-        return PolygonSet::EMPTY;
-    };
-    // What lies farther from them than a mitre and the growth of a cut reach has no say.
-    let near = below.within(bounds.grown(2.0 * MITRE_LIMIT * (step + SNAP_SLACK_MM)));
-    let contours = open().flat_map(|island| island.polygon.clone().into_set().into_contours());
-    PolygonSet::canonical(contours.collect()).difference(&permissible_overhang(&near, step))
+    let open: Vec<&Island> =
+        islands.iter().zip(settled).filter(|(_, settled)| !**settled).map(|(island, _)| island).collect();
+    let boxes: Vec<Bounds> = open.iter().map(|island| island.bounds).collect();
+    // What lies farther from them than a mitre reaches has no say, nor has the growth of a cut there.
+    let around = 1.1 * MITRE_LIMIT * (step + SNAP_SLACK_MM);
+    let outside = groups_of(&boxes, around).into_iter().flat_map(|group| {
+        let bounds = group.iter().map(|&i| boxes[i]).reduce(Bounds::union);
+        let near = bounds.map_or(PolygonSet::EMPTY, |bounds| below.within(bounds.grown(around)));
+        let contours = group.iter().flat_map(|&i| open[i].polygon.clone().into_set().into_contours());
+        let open = PolygonSet::canonical(contours.collect());
+        open.difference(&permissible_overhang(&near, step)).into_contours()
+    });
+    PolygonSet::canonical(outside.collect())
 }
 
 /// Marks the islands of an overhang that hold a piece of `outside`, which lies within them.

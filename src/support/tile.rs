@@ -30,6 +30,9 @@ const ALONG_MM: f64 = 2e-3;
 /// Regions of so many pairs of edges with the part are cut by it without looking first whether they meet.
 const MOST_PAIRS: usize = 10_000;
 
+/// What needs support may touch components of the region whose boxes are this near, mm.
+const NEAR_MM: f64 = 1e-3;
+
 /// One cut takes at most so many vertices off.
 const MOST_CUT: usize = 24;
 
@@ -52,9 +55,19 @@ pub(super) struct Part {
     pub(super) piece: Piece,
     pub(super) node: usize,
     pub(super) area_mm2: f64,
+    /// A point well inside, once asked for.
+    inner: OnceCell<Option<DVec2>>,
 }
 
 impl Part {
+    fn new(piece: Piece, node: usize) -> Part {
+        Part { area_mm2: piece.island.polygon.area(), piece, node, inner: OnceCell::new() }
+    }
+
+    fn inner_point(&self) -> Option<DVec2> {
+        *self.inner.get_or_init(|| inner_point(&self.piece.island.polygon))
+    }
+
     fn overlap(&self, other: &Island) -> PolygonSet {
         self.piece.island.polygon.clone().into_set().intersection(&other.polygon.clone().into_set())
     }
@@ -92,6 +105,8 @@ impl Tile {
     }
 
     /// S_k = (S_(k+1) u ESF_k) - A_k, for a layer of height `layer_height` mm; whether anything changed.
+    ///
+    /// Components that neither meet the part nor anything new stay as they are.
     pub(super) fn descend(
         &mut self,
         area: PolygonSet,
@@ -101,41 +116,61 @@ impl Tile {
     ) -> bool {
         let is_as_before = area == self.area || self.region.is_empty();
         self.area = area;
-        let stays = is_as_before || self.is_surely_apart();
+        let edges: Vec<(DVec2, DVec2)> = match is_as_before {
+            true => Vec::new(),
+            false => self.area.contours().iter().flat_map(Contour::edges).collect(),
+        };
+        let meets: Vec<bool> =
+            self.parts.iter().map(|part| !is_as_before && !self.is_surely_apart(part, &edges)).collect();
+        let stays = !meets.contains(&true);
         if esf.is_empty() && stays {
             return false;
         }
-        let mut held = reaching_over(esf, &self.region, self.bounds);
-        held.extend_from_slice(self.region.contours());
+        let new: Vec<Bounds> = esf.contours().iter().filter_map(Contour::bounds).collect();
+        let is_new_near = |part: &Part| new.iter().any(|b| b.is_near(part.piece.island.bounds, NEAR_MM));
+        let (above, kept): (Vec<_>, Vec<_>) = std::mem::take(&mut self.parts)
+            .into_iter()
+            .zip(meets)
+            .partition(|(part, meets)| *meets || is_new_near(part));
+        let [above, mut kept]: [Vec<Part>; 2] =
+            [above, kept].map(|parts| parts.into_iter().map(|(part, _)| part).collect());
+        let region = area_of(&above);
+        let mut held = reaching_over(esf, &region, self.bounds);
+        held.extend_from_slice(region.contours());
         // These contours overlap: one operand of the difference, which counts what is wound around.
         let held = PolygonSet::canonical(held);
         // What needs support lies beside the part, so that both leave the rest alone.
         let cut_by = if stays { &PolygonSet::EMPTY } else { &self.area };
         let left = held.wound_difference(cut_by);
-        let region = self.without_jags(without_slivers(left), JAG_SHARE * layer_height);
-        let changed = !esf.is_empty() || region != self.region;
+        let left = self.without_jags(without_slivers(left), JAG_SHARE * layer_height);
+        let changed = !esf.is_empty() || left != region;
         if changed {
-            let part = |piece: Piece| Part { area_mm2: piece.island.polygon.area(), piece, node: sets.add() };
-            let parts: Vec<Part> = pieces_of(&region, self.bounds).into_iter().map(part).collect();
-            self.join_parts(&parts, sets);
-            self.area_mm2 = region.area();
+            let parts: Vec<Part> =
+                pieces_of(&left, self.bounds).into_iter().map(|piece| Part::new(piece, sets.add())).collect();
+            self.join_parts(&above, &parts, sets);
+            kept.extend(parts);
+        } else {
+            kept.extend(above);
+        }
+        self.parts = kept;
+        if changed {
+            self.region = area_of(&self.parts);
+            self.area_mm2 = self.parts.iter().map(|part| part.area_mm2).sum();
             self.inside.take();
-            (self.region, self.parts) = (region, parts);
         }
         changed
     }
 
-    /// Joins the components of S_k, which are `parts`, to those of S_(k+1) that they overlap.
+    /// Joins `parts` of S_k to those of S_(k+1), `above`, that they overlap.
     ///
     /// A point inside one that lies in the other settles it for most; the overlap itself is made
     /// for those whose point lies in the part above or below.
-    fn join_parts(&mut self, parts: &[Part], sets: &mut Sets) {
-        let above = std::mem::take(&mut self.parts);
+    fn join_parts(&self, above: &[Part], parts: &[Part], sets: &mut Sets) {
         for part in parts {
             let shared = |other: &Part| part.overlap(&other.piece.island).islands();
-            join_to(part, &above, sets, shared);
+            join_to(part, above, sets, shared);
         }
-        for part in &above {
+        for part in above {
             // Nothing of S_k lies in A_k.
             let shared =
                 |_: &Part| part.piece.island.polygon.clone().into_set().difference(&self.area).islands();
@@ -146,32 +181,35 @@ impl Tile {
     /// The region without jags of its free border lower than `height` mm: those borders are what many
     /// layers above left, and hold most of the vertices.
     fn without_jags(&self, region: PolygonSet, height: f64) -> PolygonSet {
-        let edges: Vec<(DVec2, DVec2)> = self.area.contours().iter().flat_map(|c| c.edges()).collect();
-        let part = EdgeGrid::new(&edges);
-        let is_free = |p: &DVec2| !self.is_on_border(*p) && part.nearest_edge(*p, ALONG_MM).is_none();
-        let contours = region.into_contours().into_iter().map(|contour| {
-            let free: Vec<bool> = contour.points.iter().map(is_free).collect();
-            cut_jags(contour, &free, height)
-        });
+        let part = OnceCell::new();
+        let is_free = |p: DVec2| {
+            let part = part.get_or_init(|| {
+                EdgeGrid::new(&self.area.contours().iter().flat_map(Contour::edges).collect::<Vec<_>>())
+            });
+            !self.is_on_border(p) && part.nearest_edge(p, ALONG_MM).is_none()
+        };
+        let contours = region.into_contours().into_iter().map(|contour| cut_jags(contour, is_free, height));
         PolygonSet::canonical(contours.collect())
     }
 
-    /// Whether nothing of the region lies in A_k. Without a doubt only: false says nothing.
-    fn is_surely_apart(&self) -> bool {
-        let edges = |area: &PolygonSet| -> Vec<(DVec2, DVec2)> {
-            area.contours().iter().flat_map(Contour::edges).collect()
-        };
-        let (own, others) = (edges(&self.region), edges(&self.area));
-        if own.len() * others.len() > MOST_PAIRS {
+    /// Whether nothing of the component lies in A_k, of which these are the edges. Without a doubt only: false
+    /// says nothing.
+    fn is_surely_apart(&self, part: &Part, edges: &[(DVec2, DVec2)]) -> bool {
+        let Island { polygon, bounds } = &part.piece.island;
+        let is_near =
+            |&&(a, b): &&(DVec2, DVec2)| Bounds { min: a.min(b), max: a.max(b) }.is_near(*bounds, 0.0);
+        let near: Vec<(DVec2, DVec2)> = edges.iter().filter(is_near).copied().collect();
+        let contours = || std::iter::once(&polygon.outer).chain(&polygon.holes);
+        if near.len() * contours().map(|c| c.points.len()).sum::<usize>() > MOST_PAIRS {
             return false;
         }
-        let apart = |a: &Contour, b: &PolygonSet| {
-            let inner = a.points.iter().find(|p| !self.is_on_border(**p));
-            inner.is_some_and(|&p| !b.contains(p))
+        let is_outside = |contour: &Contour| {
+            let inner = contour.points.iter().find(|p| !self.is_on_border(**p));
+            inner.is_some_and(|&p| !self.area.contains(p))
         };
-        !own.iter().any(|&(a, b)| others.iter().any(|&(c, d)| do_cross(a, b, c, d)))
-            && self.region.contours().iter().all(|contour| apart(contour, &self.area))
-            && !others.iter().any(|&(p, _)| !self.is_on_border(p) && self.region.contains(p))
+        !contours().flat_map(Contour::edges).any(|(a, b)| near.iter().any(|&(c, d)| do_cross(a, b, c, d)))
+            && contours().all(is_outside)
+            && !near.iter().any(|&(p, _)| !self.is_on_border(p) && part.piece.island.contains(p))
     }
 
     fn is_on_border(&self, p: DVec2) -> bool {
@@ -179,11 +217,18 @@ impl Tile {
     }
 }
 
+/// The components as one area.
+fn area_of(parts: &[Part]) -> PolygonSet {
+    let polygons = parts.iter().map(|part| &part.piece.island.polygon);
+    let contours = polygons.flat_map(|polygon| std::iter::once(&polygon.outer).chain(&polygon.holes));
+    PolygonSet::canonical(contours.cloned().collect())
+}
+
 /// Joins `part` to the one of `others` that holds its inner point, else to those that hold an inner
 /// point of what they share.
 fn join_to(part: &Part, others: &[Part], sets: &mut Sets, shared: impl Fn(&Part) -> Vec<Polygon>) {
     let holds = |point: DVec2| move |other: &&Part| other.piece.island.contains(point);
-    if let Some(other) = inner_point(&part.piece.island.polygon).and_then(|p| others.iter().find(holds(p))) {
+    if let Some(other) = part.inner_point().and_then(|p| others.iter().find(holds(p))) {
         sets.join(part.node, other.node);
         return;
     }
@@ -258,7 +303,7 @@ fn without_slivers(area: PolygonSet) -> PolygonSet {
 }
 
 /// Leaves out runs of free vertices that lie outside the chord across them, and nearer to it than `height`.
-fn cut_jags(contour: Contour, free: &[bool], height: f64) -> Contour {
+fn cut_jags(contour: Contour, is_free: impl Fn(DVec2) -> bool, height: f64) -> Contour {
     let points = &contour.points;
     let n = points.len();
     let mut kept = Vec::with_capacity(n);
@@ -270,10 +315,9 @@ fn cut_jags(contour: Contour, free: &[bool], height: f64) -> Contour {
             // The region lies to the left.
             let out = |p: DVec2| -along.perp_dot(p - a);
             let most = height * along.length();
-            points[from + 1..to].iter().all(|&p| (0.0..=most).contains(&out(p)))
+            points[from + 1..to].iter().all(|&p| (0.0..=most).contains(&out(p))) && is_free(points[to - 1])
         };
-        let run = free[from + 1..].iter().take(MOST_CUT).take_while(|free| **free).count();
-        from = (from + 2..=(from + 1 + run).min(n)).take_while(may_skip).last().unwrap_or(from + 1);
+        from = (from + 2..=(from + 1 + MOST_CUT).min(n)).take_while(may_skip).last().unwrap_or(from + 1);
     }
     if kept.len() < 3 { contour } else { Contour::new(kept) }
 }
