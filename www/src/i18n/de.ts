@@ -192,7 +192,7 @@ export const de: Words = {
     printer: 'Drucker',
     material: 'Material',
     quality: 'Qualität',
-    none: { printer: 'Drucker wählen …', material: 'Material wählen …', quality: 'Wie eingestellt' },
+    none: { printer: 'Drucker wählen', material: 'Material wählen', quality: 'Wie eingestellt' },
     ofModels: (names: string) =>
       `Einstellungen einzelner Modelle wurden ausgelassen (${names}): Teil wählen und dort einstellen.`,
     imported: (name: string, count: number) => `${name}: ${count} Einstellungen übernommen.`,

@@ -195,7 +195,7 @@ export const en = {
     printer: 'Printer',
     material: 'Material',
     quality: 'Quality',
-    none: { printer: 'Choose your printer …', material: 'Choose your material …', quality: 'As the settings say' },
+    none: { printer: 'Choose your printer', material: 'Choose your material', quality: 'As the settings say' },
     ofModels: (names: string) =>
       `Settings of single models were left out (${names}): choose the part and give it its own.`,
     imported: (name: string, count: number) => `${name}: ${count} settings taken over.`,

@@ -190,7 +190,7 @@ export const zh: Words = {
     printer: '打印机',
     material: '材料',
     quality: '质量',
-    none: { printer: '选择打印机……', material: '选择材料……', quality: '按当前设置' },
+    none: { printer: '选择打印机', material: '选择材料', quality: '按当前设置' },
     ofModels: (names: string) => `未导入单个模型的设置（${names}）：请选择零件后单独设置。`,
     imported: (name: string, count: number) => `${name}：已采用 ${count} 项设置。`,
     unknown: (names: string) => `未知的设置：${names}`,

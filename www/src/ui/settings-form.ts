@@ -129,8 +129,9 @@ export class SettingsForm extends Part {
     const row = this.querySelector<HTMLElement>('.field.pointed');
     const group = row?.closest('details');
     if (group) group.open = true;
-    row?.scrollIntoView({ block: 'center' });
     row?.querySelector<HTMLElement>('input, select, textarea')?.focus({ preventScroll: true });
+    // With the focus comes the help below it.
+    row?.scrollIntoView({ block: 'center' });
   }
 
   #files(changed: boolean): TemplateResult {
