@@ -1,38 +1,51 @@
-// Beads and travels in space: each move is one instance of a flat ribbon that faces the eye and is shaded like
-// a round bead, so that a million moves are two million triangles.
+// Beads and travels in space: each move is a flat ribbon that faces the eye and is shaded like a round bead, so that a
+// million moves are two million triangles. The vertex shader reads the moves from textures: an instance for each would
+// be ten times as slow in software, and small instances suit no graphics card.
 import {
   BufferAttribute,
+  BufferGeometry,
   DataTexture,
+  FloatType,
   GLSL3,
   Group,
-  InstancedBufferAttribute,
-  InstancedBufferGeometry,
-  InstancedInterleavedBuffer,
-  InterleavedBufferAttribute,
   Mesh,
   NearestFilter,
   RawShaderMaterial,
+  RedFormat,
+  RGBAFormat,
   Sphere,
   Vector3,
 } from 'three';
 import type { Moves } from '../messages.ts';
 import { type Detail, layersDrawnAs } from './pace.ts';
 
+/** Moves in a row of the textures, as bits. */
+const ROW_BITS = 10;
+const ROW = 1 << ROW_BITS;
+
 const vertex = `
+#define ROW_BITS ${ROW_BITS}
+#define ROW_MASK ${ROW - 1}
 precision highp float;
 uniform mat4 modelViewMatrix;
 uniform mat4 projectionMatrix;
 uniform highp sampler2D palette;
 uniform float travelWidth;
 uniform float layers;
-in vec2 position;
-in vec3 start;
-in vec3 end;
-in vec2 size;
-in float colour;
+uniform highp sampler2D places;
+uniform highp sampler2D colours;
 out vec3 tint;
 out float across;
 void main() {
+  int move = gl_VertexID >> 2;
+  vec2 position = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1) * 2.0 - 1.0;
+  ivec2 texel = ivec2(move & ROW_MASK, move >> ROW_BITS);
+  vec4 first = texelFetch(places, ivec2(2 * texel.x, texel.y), 0);
+  vec4 second = texelFetch(places, ivec2(2 * texel.x + 1, texel.y), 0);
+  vec3 start = first.xyz;
+  vec3 end = second.xyz;
+  vec2 size = vec2(first.w, second.w);
+  float colour = 255.0 * texelFetch(colours, texel, 0).r;
   vec4 entry = texelFetch(palette, ivec2(int(colour + 0.5), 0), 0);
   bool isTravel = size.x <= 0.0;
   // A bead may stand for those of the layers below it.
@@ -69,22 +82,25 @@ void main() {
   colour = vec4(tint * (0.66 + 0.34 * sqrt(1.0 - min(across * across, 1.0))), 1.0);
 }`;
 
-/** Some layers as instances; `ends[k]` moves come before the end of layer k of them. */
-interface Instances {
-  readonly mesh: Mesh<InstancedBufferGeometry>;
-  readonly colours: InstancedBufferAttribute;
+/** The ribbons of some layers; `ends[k]` moves come before the end of layer k of them. */
+interface Ribbons {
+  readonly mesh: Mesh<BufferGeometry>;
+  readonly places: DataTexture;
+  /** Index into the palette of each move; what follows is not drawn. */
+  readonly indices: Uint8Array<ArrayBuffer>;
+  readonly colours: DataTexture;
   readonly ends: Uint32Array;
 }
 
 /** Some of a batch's moves. */
-interface Share extends Instances {
+interface Share extends Ribbons {
   /** Positions of these moves among all. */
   readonly kept: Uint32Array;
 }
 
 interface Batch {
   readonly moves: Moves;
-  readonly all: Instances;
+  readonly all: Ribbons;
   /**
    * What is seen from outside, for devices that are too slow to draw all while the picture moves: every layer that
    * only detail 1 shows, then those that detail 2 adds to 3, 3 to 4, and what 4 shows.
@@ -107,8 +123,8 @@ export class Beads {
   /** Draws beads as high as the layers that they stand for. */
   readonly #coarseMaterial: RawShaderMaterial;
   readonly #palette = new DataTexture(new Uint8Array(4 * 256), 256, 1);
-  readonly #corners = new BufferAttribute(new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), 2);
-  readonly #triangles = new BufferAttribute(new Uint16Array([0, 1, 2, 2, 1, 3]), 1);
+  /** Two triangles for each ribbon; shared by all that have no more. */
+  #triangles = trianglesOf(ROW);
   #batches: Batch[] = [];
   #shown: readonly [layer: number, moves: number] = [0, 0];
   #detail: Detail = 0;
@@ -127,43 +143,61 @@ export class Beads {
       glslVersion: GLSL3,
       vertexShader: vertex,
       fragmentShader: fragment,
-      uniforms: { palette: { value: this.#palette }, travelWidth: { value: 0.0007 }, layers: { value: layers } },
+      uniforms: {
+        palette: { value: this.#palette },
+        travelWidth: { value: 0.0007 },
+        layers: { value: layers },
+        places: { value: null },
+        colours: { value: null },
+      },
       side: 2,
     });
   }
 
   /** Adds the moves of further layers, with an index into the palette each. */
   add(moves: Moves, colours: Uint8Array<ArrayBuffer>): void {
-    this.#batches.push({ moves, all: this.#instances(moves, colours, this.#material) });
+    this.#batches.push({ moves, all: this.#ribbons(moves, colours, this.#material) });
   }
 
-  #instances(moves: Moves, colours: Uint8Array<ArrayBuffer>, material: RawShaderMaterial): Instances {
-    const geometry = new InstancedBufferGeometry();
-    geometry.setAttribute('position', this.#corners);
+  #ribbons(
+    { ends, sizes, layers }: Pick<Moves, 'ends' | 'sizes' | 'layers'>,
+    colours: Uint8Array<ArrayBuffer>,
+    material: RawShaderMaterial,
+  ): Ribbons {
+    const count = colours.length;
+    const rows = Math.max(Math.ceil(count / ROW), 1);
+    if (this.#triangles.count < 6 * count) this.#triangles = trianglesOf(rows * ROW);
+    const places = new DataTexture(placesOf(ends, sizes, rows), 2 * ROW, rows, RGBAFormat, FloatType);
+    const indices = new Uint8Array(rows * ROW);
+    indices.set(colours);
+    const tints = new DataTexture(indices, ROW, rows, RedFormat);
+    places.needsUpdate = true;
+    tints.needsUpdate = true;
+    const geometry = new BufferGeometry();
     geometry.setIndex(this.#triangles);
-    const places = new InstancedInterleavedBuffer(moves.ends, 6);
-    geometry.setAttribute('start', new InterleavedBufferAttribute(places, 3, 0));
-    geometry.setAttribute('end', new InterleavedBufferAttribute(places, 3, 3));
-    geometry.setAttribute('size', new InstancedBufferAttribute(moves.sizes, 2));
-    const colour = new InstancedBufferAttribute(colours, 1);
-    geometry.setAttribute('colour', colour);
-    geometry.instanceCount = moves.speeds.length;
-    // The corners say nothing about where the instances are.
+    geometry.setDrawRange(0, 6 * count);
+    // There are no vertices that say where the ribbons are.
     geometry.boundingSphere = new Sphere(new Vector3(), Number.POSITIVE_INFINITY);
     const mesh = new Mesh(geometry, material);
     mesh.frustumCulled = false;
+    mesh.onBeforeRender = () => {
+      const { uniforms } = material;
+      if (uniforms['places']) uniforms['places'].value = places;
+      if (uniforms['colours']) uniforms['colours'].value = tints;
+      material.uniformsNeedUpdate = true;
+    };
     this.group.add(mesh);
-    return { mesh, colours: colour, ends: moves.layers };
+    return { mesh, places, indices, colours: tints, ends: layers };
   }
 
   /** Colours batch `k` anew. */
   colour(k: number, indices: Uint8Array<ArrayBuffer>): void {
     const { all, outside } = this.#batches[k] ?? {};
     if (all === undefined) return;
-    all.colours.array.set(indices);
+    all.indices.set(indices);
     all.colours.needsUpdate = true;
     for (const share of outside ?? []) {
-      share.colours.array.set(picked(indices, 1, share.kept));
+      share.indices.set(picked(indices, 1, share.kept));
       share.colours.needsUpdate = true;
     }
   }
@@ -225,11 +259,9 @@ export class Beads {
   }
 
   #outside({ moves, all }: Batch): Share[] {
-    const colours = all.colours.array as Uint8Array<ArrayBuffer>;
     return sharesOf(moves, this.#inside).map((kept) => {
-      const some = { ...moves, ends: picked(moves.ends, 6, kept), sizes: picked(moves.sizes, 2, kept) };
-      const speeds = new Float32Array(kept.length);
-      return { ...this.#instances({ ...some, speeds }, picked(colours, 1, kept), this.#coarseMaterial), kept };
+      const some = { layers: moves.layers, ends: picked(moves.ends, 6, kept), sizes: picked(moves.sizes, 2, kept) };
+      return { ...this.#ribbons(some, picked(all.indices, 1, kept), this.#coarseMaterial), kept };
     });
   }
 
@@ -241,18 +273,38 @@ export class Beads {
     this.#batches = [];
   }
 
-  #drop({ mesh }: Instances): void {
+  #drop({ mesh, places, colours }: Ribbons): void {
     this.group.remove(mesh);
     mesh.geometry.dispose();
+    places.dispose();
+    colours.dispose();
   }
 }
 
-/** Cuts the instances after layer `inside` and its first `moves`; whether there is any left. */
-function showUpTo({ mesh, ends }: Instances, inside: number, moves: number): boolean {
+/** The corners of so many ribbons' triangles: four each. */
+function trianglesOf(count: number): BufferAttribute {
+  const corners = new Uint32Array(6 * count);
+  for (let k = 0; k < count; k++) corners.set([4 * k, 4 * k + 1, 4 * k + 2, 4 * k + 2, 4 * k + 1, 4 * k + 3], 6 * k);
+  return new BufferAttribute(corners, 1);
+}
+
+/** Two texels for each move: start and width, end and height. */
+function placesOf(ends: Float32Array, sizes: Float32Array, rows: number): Float32Array<ArrayBuffer> {
+  const places = new Float32Array(8 * ROW * rows);
+  for (let k = 0; k < sizes.length; k++) {
+    const [from, to] = [3 * k, 4 * k];
+    for (let i = 0; i < 3; i++) places[to + i] = ends[from + i] ?? 0;
+    places[to + 3] = sizes[k] ?? 0;
+  }
+  return places;
+}
+
+/** Cuts the ribbons after layer `inside` and its first `moves`; whether there is any left. */
+function showUpTo({ mesh, ends }: Ribbons, inside: number, moves: number): boolean {
   const total = ends.at(-1) ?? 0;
   const before = ends[inside - 1] ?? 0;
   const shown = inside < 0 ? 0 : inside >= ends.length ? total : Math.min(before + moves, ends[inside] ?? total);
-  mesh.geometry.instanceCount = shown;
+  mesh.geometry.setDrawRange(0, 6 * shown);
   return shown > 0;
 }
 

@@ -6,6 +6,7 @@ const MOST = 2;
 
 interface Frame {
   readonly began: number;
+  readonly isUsual: boolean;
   /** Signalled when the card is done with the frame; null when its context is lost. */
   readonly done: WebGLSync | null;
 }
@@ -28,9 +29,9 @@ export class FrameQueue {
     return this.#frames.length >= MOST;
   }
 
-  /** A frame has been told at `began`, ms. */
-  add(began: number): void {
-    this.#frames.push({ began, done: this.#gl.fenceSync(this.#gl.SYNC_GPU_COMMANDS_COMPLETE, 0) });
+  /** A frame has been told at `began`, ms; its time is told later if it is a usual one. */
+  add(began: number, isUsual: boolean): void {
+    this.#frames.push({ began, isUsual, done: this.#gl.fenceSync(this.#gl.SYNC_GPU_COMMANDS_COMPLETE, 0) });
     this.#gl.flush();
   }
 
@@ -39,7 +40,7 @@ export class FrameQueue {
     for (let frame = this.#frames[0]; frame !== undefined && this.#isDone(frame); frame = this.#frames[0]) {
       this.#frames.shift();
       this.#gl.deleteSync(frame.done);
-      tell(now - Math.max(frame.began, this.#last));
+      if (frame.isUsual) tell(now - Math.max(frame.began, this.#last));
       this.#last = now;
     }
   }

@@ -34,6 +34,7 @@ import { FrameQueue } from './frame-queue.ts';
 import { eyeOf, FIELD_OF_VIEW, type Orbit, type Point } from './orbit.ts';
 import { type Pace, paced, rested, unhurried, whole } from './pace.ts';
 import { Sheets } from './sheets.ts';
+import { hasGraphicsCard } from './webgl.ts';
 
 /** What a ray from the eye meets. */
 export interface Hit {
@@ -48,7 +49,7 @@ const MOST_PICKED = 2_000_000;
 
 /** Moves of the camera further apart than this, ms, are not one movement. */
 const STILL = 250;
-/** Time in a frame to find what a coarser picture shows, ms. */
+/** Time in a frame to find what a coarser picture shows, ms at least; else half as long as the last frame took. */
 const THIN = 12;
 
 const colours = {
@@ -75,6 +76,10 @@ export class Stage {
   /** Whether a look at the picture and the queue is due, and whether the picture is older than what it shows. */
   #waiting = false;
   #stale = false;
+  /** The next frame hands beads over: its time says nothing about those that follow. */
+  #handsOver = false;
+  /** How long the last usual frame took, ms. */
+  #took = 0;
   readonly #queue: FrameQueue;
   /** What the movement of the picture has shown, and the timer that ends it; 0 while it rests. */
   #pace: Pace = unhurried;
@@ -82,7 +87,7 @@ export class Stage {
   #shown: readonly [layer: number, moves: number] = [0, 0];
 
   constructor(canvas: HTMLCanvasElement, lost: () => void) {
-    this.#renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
+    this.#renderer = new WebGLRenderer({ canvas, antialias: hasGraphicsCard(), powerPreference: 'high-performance' });
     this.#queue = new FrameQueue(this.#renderer.getContext() as WebGL2RenderingContext);
     canvas.addEventListener('webglcontextlost', (event) => {
       event.preventDefault();
@@ -202,12 +207,14 @@ export class Stage {
     this.#beads.add(moves, colours);
     // Frames are slow while moves are read: that says nothing about the device.
     this.#pace = unhurried;
+    this.#handsOver = true;
     this.redraw();
   }
 
   /** Colours the moves of the k-th `addBeads` anew. */
   colourBeads(k: number, indices: Uint8Array<ArrayBuffer>): void {
     this.#beads.colour(k, indices);
+    this.#handsOver = true;
     this.redraw();
   }
 
@@ -267,14 +274,21 @@ export class Stage {
   /** The picture moves: a slow device draws less of it until it rests. */
   #move(): void {
     clearTimeout(this.#moving);
-    this.#moving = window.setTimeout(() => {
-      this.#moving = 0;
-      this.#pace = rested(this.#pace);
-      this.#beads.coarse(0);
-      this.redraw();
-    }, STILL);
+    this.#moving = window.setTimeout(this.#settle, STILL);
     this.#beads.coarse(this.#pace.detail);
   }
+
+  /** The picture rests: all of it is drawn, unless frames still keep the next move waiting. */
+  #settle = (): void => {
+    if (!this.#queue.isEmpty()) {
+      this.#moving = window.setTimeout(this.#settle, STILL);
+      return;
+    }
+    this.#moving = 0;
+    this.#pace = rested(this.#pace);
+    this.#beads.coarse(0);
+    this.redraw();
+  };
 
   /** Draws in the next frame, or as soon as the graphics card has caught up. */
   redraw(): void {
@@ -291,8 +305,9 @@ export class Stage {
     if (this.#stale && !this.#queue.isFull()) {
       this.#stale = false;
       this.#renderer.render(this.#scene, this.#camera);
-      this.#queue.add(now);
-      if (this.#beads.thin(THIN)) this.#stale = true;
+      this.#queue.add(now, !this.#handsOver);
+      this.#handsOver = this.#beads.thin(Math.max(THIN, this.#took / 2));
+      this.#stale = this.#handsOver;
     }
     if (!this.#stale && this.#queue.isEmpty()) return;
     this.#waiting = true;
@@ -301,6 +316,7 @@ export class Stage {
 
   /** A frame has been drawn, which took `ms`. */
   #timed(ms: number): void {
+    this.#took = ms;
     if (!this.#beads.group.visible) return;
     this.#pace = this.#moving === 0 ? whole(this.#pace, ms) : paced(this.#pace, ms);
     if (this.#moving !== 0) this.#beads.coarse(this.#pace.detail);

@@ -10,3 +10,10 @@ export function canDrawSpace(): boolean {
   drawsSpace = context !== null;
   return drawsSpace;
 }
+
+/** Whether pictures in space are drawn by more than software, which would take five times as long for smooth edges. */
+export function hasGraphicsCard(): boolean {
+  const context = document.createElement('canvas').getContext('webgl2', { failIfMajorPerformanceCaveat: true });
+  context?.getExtension('WEBGL_lose_context')?.loseContext();
+  return context !== null;
+}
