@@ -90,17 +90,22 @@ test('a move of the camera hands nothing over and draws each batch of layers onc
   };
   await expect.poll(isQuiet, { intervals: [700] }).toBe(true);
   await picture(page).focus();
-  // The first move may hand over what a slow device draws while the picture moves.
-  await page.keyboard.press('ArrowLeft');
-  await settled(page);
-  await expect.poll(isQuiet, { intervals: [700] }).toBe(true);
+  // The first moves may hand over what a slow device draws while the picture moves, each detail once.
+  const handedOver = async (): Promise<number> => {
+    const { uploads } = before;
+    await page.keyboard.press('ArrowLeft');
+    await settled(page);
+    await expect.poll(isQuiet, { intervals: [700] }).toBe(true);
+    return before.uploads - uploads;
+  };
+  await expect.poll(handedOver, { timeout: 60_000 }).toBe(0);
   const still = await settled(page);
+  const draws = before.draws;
   await page.keyboard.press('ArrowLeft');
-  await expect.poll(async () => (await told()).draws).toBeGreaterThan(before.draws);
-  const after = await told();
-  expect(after.uploads).toBe(before.uploads);
-  // 240 layers are ten batches; plate, grids, borders and arrows are a dozen more; two frames at the most.
-  expect(after.draws - before.draws).toBeLessThanOrEqual(2 * 22);
+  await expect.poll(async () => (await told()).draws).toBeGreaterThan(draws);
+  // 240 layers are ten batches, in five parts on a slow device; plate, grids, borders and arrows are a dozen more;
+  // two frames at the most.
+  expect((await told()).draws - draws).toBeLessThanOrEqual(2 * (5 * 10 + 12));
   expect((await settled(page)).equals(still)).toBe(false);
 });
 
