@@ -5,6 +5,7 @@
 // a busy machine look at the CPU time of all, in which cutting the first layer and estimating the printing time
 // are counted as well.
 import { readFileSync } from 'node:fs';
+import { binaryStl } from '../scripts/sample.mjs';
 import * as engine from '../www/src/generated/engine/foothold.js';
 
 const TAU = 2 * Math.PI;
@@ -80,14 +81,7 @@ function prism(outlines) {
       return k === 0 || k === ring.length - 1 ? wall : [...wall, ...lid];
     }),
   );
-  const bytes = new DataView(new ArrayBuffer(84 + 50 * triangles.length));
-  bytes.setUint32(80, triangles.length, true);
-  triangles.forEach((corners, t) => {
-    corners.flat().forEach((value, k) => {
-      bytes.setFloat32(84 + 50 * t + 12 + 4 * k, value, true);
-    });
-  });
-  return new Uint8Array(bytes.buffer);
+  return binaryStl(triangles);
 }
 
 const wasm = new URL('../www/src/generated/engine/foothold_bg.wasm', import.meta.url);

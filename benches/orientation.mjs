@@ -5,6 +5,7 @@
 // Target: under 3 s for any of them. CPU seconds, as the machine may be busy.
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
+import { binaryStl } from '../scripts/sample.mjs';
 import * as engine from '../www/src/generated/engine/foothold.js';
 
 const RINGS = 160;
@@ -29,18 +30,7 @@ function ball(bump) {
       if (i > 0) triangles.push([a, d, b]);
     }
   }
-  return stl(triangles);
-}
-
-function stl(triangles) {
-  const bytes = new DataView(new ArrayBuffer(84 + 50 * triangles.length));
-  bytes.setUint32(80, triangles.length, true);
-  triangles.forEach((corners, t) => {
-    corners.flat().forEach((value, k) => {
-      bytes.setFloat32(84 + 50 * t + 12 + 4 * k, value, true);
-    });
-  });
-  return new Uint8Array(bytes.buffer);
+  return binaryStl(triangles);
 }
 
 function sixDirections(bytes) {

@@ -98,7 +98,8 @@ function bore() {
   });
 }
 
-function binaryStl(triangles) {
+/** Triangles, three points each, as the bytes of a binary STL. */
+export function binaryStl(triangles) {
   const bytes = new DataView(new ArrayBuffer(84 + 50 * triangles.length));
   bytes.setUint32(80, triangles.length, true);
   triangles.flat(2).forEach((value, k) => {

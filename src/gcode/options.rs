@@ -321,6 +321,11 @@ impl PrinterOptions {
         }
     }
 
+    /// Boxes of the bed where nothing may be printed.
+    pub fn forbidden_zones(&self) -> impl Iterator<Item = Bounds> {
+        self.forbidden.iter().map(|&[x0, y0, x1, y1]| Bounds { min: dvec2(x0, y0), max: dvec2(x1, y1) })
+    }
+
     /// Where the head goes when the part is done: the back, on the left where there is a corner.
     pub(super) fn parking(&self) -> DVec2 {
         let Bounds { min, max } = self.bed();

@@ -206,6 +206,7 @@ mod tests {
             assert_eq!(edited(&mesh, &DMat4::IDENTITY, edit), Err(TransformError::NotInvertible), "{edit:?}");
         }
     }
+
     #[test]
     fn a_change_is_its_kind_and_its_numbers() {
         let turn = Edit::Turn { axis: 2, angle_deg: -12.5 };

@@ -100,19 +100,13 @@ fn meet(a: Bounds, b: Bounds) -> Option<DVec2> {
     low.cmplt(high).all().then_some((low + high) / 2.0)
 }
 
-/// Boxes of the bed where nothing may be printed.
-fn forbidden_zones(settings: &Settings) -> impl Iterator<Item = Bounds> {
-    let zones = settings.printer.forbidden.iter();
-    zones.map(|&[x0, y0, x1, y1]| Bounds { min: DVec2::new(x0, y0), max: DVec2::new(x1, y1) })
-}
-
 /// A prime line that a model would be printed on, or that crosses a forbidden zone.
 fn prime_line(settings: &Settings, stands: &[Stand]) -> Option<Warning> {
     let ends = gcode::prime_line(&settings.gcode_options())?;
     let half = DVec2::splat(settings.printer.nozzle_diameter / 2.0);
     let line = Bounds { min: ends[0] - half, max: ends[1] + half };
     let on_part = stands.iter().find_map(|it| meet(it.footprint, line)).map(|at| ("the part", at));
-    let in_zone = || forbidden_zones(settings).find_map(|zone| meet(zone, line));
+    let in_zone = || settings.printer.forbidden_zones().find_map(|zone| meet(zone, line));
     let (what, at) = on_part.or_else(|| Some(("a zone where this printer must not print", in_zone()?)))?;
     let message = format!("the line that fills the nozzle runs through {what}");
     Some(Warning::on_layer("prime_line", message, 0, at).fixed_by("printer.prime_length", 0))
@@ -120,7 +114,7 @@ fn prime_line(settings: &Settings, stands: &[Stand]) -> Option<Warning> {
 
 /// A model whose box reaches into a forbidden zone.
 fn forbidden(settings: &Settings, model: Bounds) -> Option<Warning> {
-    let reached = forbidden_zones(settings).find_map(|zone| meet(model, zone))?;
+    let reached = settings.printer.forbidden_zones().find_map(|zone| meet(model, zone))?;
     let message = "the part reaches into a zone of the bed where this printer must not print".to_owned();
     Some(Warning::on_layer("forbidden_zone", message, 0, reached))
 }

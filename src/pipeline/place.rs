@@ -168,8 +168,7 @@ const ROUND_CORNERS: u32 = 360;
 /// What of the box around the bed nothing may be printed on.
 pub(super) fn closed_bed(printer: &PrinterOptions) -> PolygonSet {
     let Bounds { min, max } = printer.bed();
-    let zones = printer.forbidden.iter();
-    let zones = zones.map(|&[x0, y0, x1, y1]| PolygonSet::rectangle(dvec2(x0, y0), dvec2(x1, y1)));
+    let zones = printer.forbidden_zones().map(|zone| PolygonSet::rectangle(zone.min, zone.max));
     let mut closed = PolygonSet::union_all(&zones.collect::<Vec<_>>());
     if printer.bed_shape == BedShape::Round {
         let corner = |k: u32| {

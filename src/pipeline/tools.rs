@@ -99,9 +99,7 @@ fn free_place(laid: &[Vec<Path>], mesh: &Mesh, settings: &Settings) -> Result<DV
     let mut cells = Cells::new(bed);
     cells.take(Bounds { min: bed.min, max: dvec2(bed.max.x, bed.min.y + FRONT_STRIP) });
     cells.take_where(|p| !printer.is_on_bed(p));
-    for &[x0, y0, x1, y1] in &printer.forbidden {
-        cells.take(Bounds { min: dvec2(x0, y0), max: dvec2(x1, y1) });
-    }
+    printer.forbidden_zones().for_each(|zone| cells.take(zone));
     let flat = |v: glam::Vec3| dvec2(v.x.into(), v.y.into());
     for t in 0..mesh.triangles.len() {
         let corners = mesh.corners(t).map(flat);

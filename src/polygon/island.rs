@@ -38,7 +38,7 @@ impl Island {
 /// A point well inside: in the middle of the widest stretch of the level line that halves the
 /// tallest gap between two neighbouring vertex heights. `None` for a polygon without height.
 pub fn inner_point(polygon: &Polygon) -> Option<DVec2> {
-    let contours = || std::iter::once(&polygon.outer).chain(&polygon.holes);
+    let contours = || polygon.contours();
     let mut heights: Vec<f64> = contours().flat_map(|c| c.points.iter().map(|p| p.y)).collect();
     heights.sort_by(f64::total_cmp);
     let tallest = heights.windows(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;

@@ -84,6 +84,11 @@ pub struct Polygon {
 }
 
 impl Polygon {
+    /// The outline, then the holes.
+    pub fn contours(&self) -> impl Iterator<Item = &Contour> + Clone {
+        std::iter::once(&self.outer).chain(&self.holes)
+    }
+
     /// The same area as a set.
     pub fn into_set(self) -> PolygonSet {
         let mut contours = vec![self.outer];

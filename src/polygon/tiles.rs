@@ -156,8 +156,8 @@ fn edges_on(island: &Island, axis: usize, end: f64) -> Vec<(f64, f64)> {
     if island.bounds.min[axis] != end && island.bounds.max[axis] != end {
         return Vec::new();
     }
-    let contours = std::iter::once(&island.polygon.outer).chain(&island.polygon.holes);
-    let on_end = contours.flat_map(Contour::edges).filter(|(a, b)| a[axis] == end && b[axis] == end);
+    let on_end =
+        island.polygon.contours().flat_map(Contour::edges).filter(|(a, b)| a[axis] == end && b[axis] == end);
     on_end.map(|(a, b)| (a[1 - axis].min(b[1 - axis]), a[1 - axis].max(b[1 - axis]))).collect()
 }
 

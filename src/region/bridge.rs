@@ -71,7 +71,7 @@ fn bridging_direction(piece: &Polygon, ground: &Strips, bead_width: f64) -> Opti
 
 /// Directions worth trying: along and across the longest edges, then evenly spread ones.
 fn directions(piece: &Polygon) -> Vec<DVec2> {
-    let contours = std::iter::once(&piece.outer).chain(&piece.holes);
+    let contours = piece.contours();
     let mut edges: Vec<DVec2> = contours.flat_map(|c| c.edges().map(|(a, b)| b - a)).collect();
     edges.stable_sort_by(|a, b| b.length_squared().total_cmp(&a.length_squared()));
     edges.truncate(EDGES_TRIED);
@@ -94,7 +94,7 @@ struct Spans {
 impl Spans {
     fn of(piece: &Polygon, direction: DVec2, ground: &Strips, bead_width: f64) -> Spans {
         let turn = |p: DVec2| DVec2::new(p.dot(direction), direction.perp_dot(p));
-        let contours = std::iter::once(&piece.outer).chain(&piece.holes);
+        let contours = piece.contours();
         let edges: Vec<(DVec2, DVec2)> =
             contours.flat_map(|c| c.edges().map(|(a, b)| (turn(a), turn(b)))).collect();
         let ends: Vec<DVec2> = edges.iter().map(|e| e.0).collect();

@@ -53,7 +53,7 @@ impl<'a> Reach<'a> {
     /// The same for one connected part.
     pub(super) fn holds_island(&self, island: &Island) -> bool {
         let polygon = &island.polygon;
-        self.holds_border(std::iter::once(&polygon.outer).chain(&polygon.holes))
+        self.holds_border(polygon.contours())
             && self.is_narrow(polygon)
             && self.covers_no_hole(&polygon.clone().into_set())
     }
@@ -61,7 +61,7 @@ impl<'a> Reach<'a> {
     /// Whether the area is so small for the length of its border that it may be a strip along it: the border may
     /// be near all around a wide bay whose mouth is narrow.
     fn is_narrow(&self, polygon: &Polygon) -> bool {
-        let border = polygon.outer.length() + polygon.holes.iter().map(Contour::length).sum::<f64>();
+        let border: f64 = polygon.contours().map(Contour::length).sum();
         polygon.area() <= border / 2.0 * self.step
     }
 
@@ -87,8 +87,7 @@ impl<'a> Reach<'a> {
 
     /// Whether a corner of `island` surely lies outside the growth.
     pub(super) fn is_left_by(&self, island: &Island) -> bool {
-        let contours = std::iter::once(&island.polygon.outer).chain(&island.polygon.holes);
-        contours.flat_map(|c| &c.points).any(|&p| self.is_surely_outside(p))
+        island.polygon.contours().flat_map(|c| &c.points).any(|&p| self.is_surely_outside(p))
     }
 
     fn holds_edge(&self, from: Near, to: Near, reach: f64, halvings: u32) -> bool {

@@ -199,7 +199,7 @@ impl Tile {
         let is_near =
             |&&(a, b): &&(DVec2, DVec2)| Bounds { min: a.min(b), max: a.max(b) }.is_near(*bounds, 0.0);
         let near: Vec<(DVec2, DVec2)> = edges.iter().filter(is_near).copied().collect();
-        let contours = || std::iter::once(&polygon.outer).chain(&polygon.holes);
+        let contours = || polygon.contours();
         if near.len() * contours().map(|c| c.points.len()).sum::<usize>() > MOST_PAIRS {
             return false;
         }
@@ -219,8 +219,7 @@ impl Tile {
 
 /// The components as one area.
 fn area_of(parts: &[Part]) -> PolygonSet {
-    let polygons = parts.iter().map(|part| &part.piece.island.polygon);
-    let contours = polygons.flat_map(|polygon| std::iter::once(&polygon.outer).chain(&polygon.holes));
+    let contours = parts.iter().flat_map(|part| part.piece.island.polygon.contours());
     PolygonSet::canonical(contours.cloned().collect())
 }
 

@@ -49,8 +49,8 @@ pub struct Descent {
     step: f64,
     /// A_k of the layer entered last.
     area: PolygonSet,
-    /// S_k of the layer entered last.
     grid: Tiles,
+    /// S_k of the layer entered last.
     tiles: Vec<Tile>,
     structures: Structures,
     support_mm3: f64,
@@ -127,8 +127,8 @@ impl Descent {
         self.tiles[self.grid.of(p)].contains(p)
     }
 
-    /// The components of S_k of the layer entered last, cut by tiles' borders, each with a mark; marks of one structure come to
-    /// the same number in [`Descent::structure_of`] once all layers were entered.
+    /// The components of S_k of the layer entered last, cut by tiles' borders, each with a mark; marks of one
+    /// structure come to the same number in [`Descent::structure_of`] once all layers were entered.
     pub fn components(&self) -> impl Iterator<Item = (&Polygon, usize)> {
         let parts = self.tiles.iter().flat_map(Tile::parts);
         parts.map(|part| (&part.piece.island.polygon, part.node))

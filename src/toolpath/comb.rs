@@ -38,9 +38,8 @@ struct Crossing {
 
 impl<'a> Comb<'a> {
     pub(super) fn new(outline: &[Polygon], rails: Vec<&'a [DVec2]>) -> Comb<'a> {
-        let contours = |island: &Polygon| -> Vec<(DVec2, DVec2)> {
-            std::iter::once(&island.outer).chain(&island.holes).flat_map(|c| c.edges()).collect()
-        };
+        let contours =
+            |island: &Polygon| -> Vec<(DVec2, DVec2)> { island.contours().flat_map(|c| c.edges()).collect() };
         let owned =
             (0..).zip(outline).flat_map(|(i, island)| contours(island).into_iter().map(move |e| (i, e)));
         let (islands, edges): (Vec<usize>, Vec<(DVec2, DVec2)>) = owned.unzip();

@@ -85,7 +85,7 @@ pub(super) fn sheets_of(job: &Job) -> Result<String, Thrown> {
 
 fn islands(area: &PolygonSet) -> Vec<Vec<Vec<f64>>> {
     let flat = |c: &Contour| c.points.iter().flat_map(|p| [p.x, p.y]).collect();
-    area.islands().iter().map(|i| std::iter::once(&i.outer).chain(&i.holes).map(flat).collect()).collect()
+    area.islands().iter().map(|i| i.contours().map(flat).collect()).collect()
 }
 
 #[derive(Serialize)]

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Warning;
 use crate::polygon::island::inner_point;
-use crate::polygon::{DVec2, Join, Polygon, PolygonSet};
+use crate::polygon::{Contour, DVec2, Join, Polygon, PolygonSet};
 use crate::region::bridge::Bridge;
 use crate::region::overhang::permissible_step;
 use crate::region::{Path, Role, Width};
@@ -94,7 +94,7 @@ impl Findings<'_> {
             return None;
         }
         let wall = |island: Polygon| {
-            let length = island.clone().into_set().length() / 2.0;
+            let length = island.contours().map(Contour::length).sum::<f64>() / 2.0;
             let is_wall =
                 length >= WALL_LENGTH * self.settings.walls.width && island.area() >= LOST_THICKNESS * length;
             let at = inner_point(&island).filter(|_| is_wall)?;

@@ -562,7 +562,7 @@ mod tests {
             let least = LOWEST_CAP * BEAD.spacing() * (2.0 * 6.0 + 2.0 * 20.0);
             let open = area.area() - plastic(&paths) - narrow.area();
             assert!((-1.0..least).contains(&open), "{tenth}: {open} mm2");
-            let (_, narrow) = hatch_monotonic(&area, Role::TopSkin, BEAD, hatch);
+            let (paths, narrow) = hatch_monotonic(&area, Role::TopSkin, BEAD, hatch);
             assert!((-1.0..least).contains(&(area.area() - plastic(&paths) - narrow.area())));
         }
     }

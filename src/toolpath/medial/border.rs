@@ -109,7 +109,7 @@ impl HasPosition for Site {
 /// Triangulates the islands after adding points so that no edge is longer than `step` mm; `None`
 /// when edges cross.
 pub(super) fn triangulate(islands: &[Polygon], step: f64) -> Option<Triangles> {
-    let contours = islands.iter().flat_map(|i| std::iter::once(&i.outer).chain(&i.holes));
+    let contours = islands.iter().flat_map(Polygon::contours);
     let dense: Vec<Vec<DVec2>> = contours.map(|c| densified(c, step)).collect();
     let (points, rings) = numbered(&dense);
     let outline = Outline::new(points.len(), &rings);

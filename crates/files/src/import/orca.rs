@@ -6,7 +6,7 @@ use super::code::Placeholders;
 use super::prusa::{FLAVORS, MONOTONIC, PATTERNS, SEAMS};
 use super::table::{
     FanNames, Relative, Row, Turn, Values, bed, brim_side, first_of, leave_rest, number, switch, take,
-    take_acceleration, take_all, take_bed, take_bed_only, take_fan, take_supports, take_threshold,
+    take_accelerations, take_all, take_bed, take_bed_only, take_fan, take_supports, take_threshold,
     take_thumbnails, take_width,
 };
 use super::{Collector, Imported, comment_pairs};
@@ -170,12 +170,7 @@ pub(super) fn collected(mut found: Values) -> Imported {
     take_fan(&FAN, &mut found, &mut out);
     take_all(ROWS, RELATIVE, &mut found, &mut out);
     take_thumbnails(&mut found, &mut out);
-    for (asked, most, path) in [
-        ("default_acceleration", "machine_max_acceleration_extruding", "printer.acceleration"),
-        ("travel_acceleration", "machine_max_acceleration_travel", "printer.travel_acceleration"),
-    ] {
-        take_acceleration(asked, most, path, &mut found, &mut out);
-    }
+    take_accelerations(&mut found, &mut out);
     take_specials(&mut found, &mut out);
     take_adhesion(brim_width, &mut found, &mut out);
     leave_rest(found, ASIDE, &mut out);

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::code::Placeholders;
 use super::table::{
-    FanNames, Relative, Row, Turn, Values, brim_side, first_of, leave_rest, number, take_acceleration,
+    FanNames, Relative, Row, Turn, Values, brim_side, first_of, leave_rest, number, take_accelerations,
     take_all, take_bed, take_bed_only, take_fan, take_supports, take_threshold, take_thumbnails, take_width,
 };
 use super::{Collector, Imported, comment_pairs};
@@ -192,12 +192,7 @@ pub(super) fn import(mut found: Values) -> Imported {
     take_fan(&FAN, &mut found, &mut out);
     take_all(ROWS, RELATIVE, &mut found, &mut out);
     take_thumbnails(&mut found, &mut out);
-    for (asked, most, path) in [
-        ("default_acceleration", "machine_max_acceleration_extruding", "printer.acceleration"),
-        ("travel_acceleration", "machine_max_acceleration_travel", "printer.travel_acceleration"),
-    ] {
-        take_acceleration(asked, most, path, &mut found, &mut out);
-    }
+    take_accelerations(&mut found, &mut out);
     if let Some(text) = found.remove("bed_shape") {
         take_bed("bed_shape", &text, &mut out);
     }

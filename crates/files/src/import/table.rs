@@ -160,8 +160,18 @@ pub(crate) fn take_thumbnails(found: &mut Values, out: &mut Collector) {
     }
 }
 
-/// The acceleration of all beads: what the profile asks for goes before what the machine can do.
-pub(crate) fn take_acceleration(
+/// The accelerations of all beads and of travels, called the same in PrusaSlicer and OrcaSlicer.
+pub(crate) fn take_accelerations(found: &mut Values, out: &mut Collector) {
+    for (asked, most, path) in [
+        ("default_acceleration", "machine_max_acceleration_extruding", "printer.acceleration"),
+        ("travel_acceleration", "machine_max_acceleration_travel", "printer.travel_acceleration"),
+    ] {
+        take_acceleration(asked, most, path, found, out);
+    }
+}
+
+/// What the profile asks for goes before what the machine can do.
+fn take_acceleration(
     asked: &'static str,
     most: &'static str,
     path: &'static str,
