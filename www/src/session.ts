@@ -12,7 +12,7 @@ import { asStanding, atFreeSpot, freeId, movedTo, type Part, standing, UNMOVED }
 import { settingsFiles } from './profiles/catalog.ts';
 import { besideForm, flattened } from './profiles/choice.ts';
 import { parseSaved, type SavedSettings } from './profiles/layers.ts';
-import { asChanges, asSettings, type Changes, withChange } from './settings/changes.ts';
+import { asChanges, asSettings, type Changes, same, withChange } from './settings/changes.ts';
 import type { Value } from './settings/fields.ts';
 import { ofModels, withModels } from './settings/of-models.ts';
 import { ownGroups } from './settings/own.ts';
@@ -518,8 +518,6 @@ function leftOut(names: readonly string[]): readonly string[] {
 function filesOf(model: State['model']): readonly string[] {
   return model.kind === 'open' ? model.models.map(({ source }) => source.name) : [];
 }
-
-const same = (a: unknown, b: unknown): boolean => JSON.stringify(a) === JSON.stringify(b);
 
 /** What became of another slicer's profile. */
 function notesOf({ mapped, changed, unknown }: Imported, name: string): readonly string[] {

@@ -8,7 +8,7 @@ import type { Part } from './parts.ts';
 import type { ThemeChoice } from './preferences.ts';
 import { hasJob } from './printer/link.ts';
 import { type PrintState, printInitial } from './printer/print-state.ts';
-import type { Changes } from './settings/changes.ts';
+import { type Changes, same } from './settings/changes.ts';
 import type { Gcode } from './slicer/gcode.ts';
 import type { Progress } from './slicer/pool.ts';
 import type { ColourBy, RoleColour } from './view/colours.ts';
@@ -208,8 +208,6 @@ export function isStale({ result, changes, parts }: State): boolean {
   if (result?.sliced === undefined) return false;
   return !same(result.changes, changes) || !same(result.parts, parts);
 }
-
-const same = (a: unknown, b: unknown): boolean => a === b || JSON.stringify(a) === JSON.stringify(b);
 
 /** How far a job is, 0 to 1; the layers are nearly all of it. */
 export function shareOf({ stage, done, total }: Progress): number {

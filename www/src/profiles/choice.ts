@@ -1,5 +1,5 @@
 // Profiles as changes of the form: choosing one writes its settings, and one is chosen while all of its settings hold.
-import type { Changes } from '../settings/changes.ts';
+import { type Changes, same } from '../settings/changes.ts';
 import type { Value } from '../settings/fields.ts';
 import { allFields } from '../settings/room.ts';
 import { type Kind, materials, type Profile, printers, qualities } from './catalog.ts';
@@ -77,5 +77,3 @@ function leaves(settings: object, path: string): [string, Value][] {
     return isGroup ? leaves(value, here) : [[here, value as Value]];
   });
 }
-
-const same = (a: unknown, b: unknown): boolean => JSON.stringify(a) === JSON.stringify(b);
