@@ -150,6 +150,10 @@ fn a_file_that_is_cut_off_is_shown_as_far_as_it_goes_and_said_to_be_cut() {
     let cut = &PRUSA[..PRUSA.find("M104 S0").expect("it is there")];
     let codes: Vec<&str> = whole(cut).figures.warnings.iter().map(|w| w.code).collect();
     assert_eq!(codes, ["heaters_stay_on"]);
+    // Klipper's files leave the heaters to a macro.
+    for ended in ["PRINT_END\n", "end_print X=1 ; heaters off\n"] {
+        assert_eq!(whole(&format!("{cut}{ended}")).figures.warnings, [], "{ended}");
+    }
     let garbled = whole(&PRUSA.replace("G1 X120 Y120 E.6", "G1 X120 Y=3 E.6")).figures;
     assert_eq!(garbled.warnings[0].code, "malformed_lines");
     assert!(garbled.warnings[0].message.starts_with("2 line(s)"), "{}", garbled.warnings[0].message);

@@ -3,6 +3,7 @@ import { availableParallelism } from 'node:os';
 import { type ParseArgsConfig, parseArgs } from 'node:util';
 import { ids, type Kind } from '../../www/src/profiles/catalog.ts';
 import type { Layers } from '../../www/src/profiles/layers.ts';
+import { hint } from './nearest.ts';
 
 export class UsageError extends Error {
   override name = 'UsageError';
@@ -69,7 +70,7 @@ export const help = `Foothold: STL, 3MF or OBJ in, printable G-code out.
 
 usage: foothold slice MODEL... [-o OUT.gcode] [--printer ID] [--material ID] [--quality ID]
                 [--settings F.json] [--set path=value]... [--set-for MODEL:path=value]...
-                [--report R.json] [--workers N]
+                [--report R.json] [--scale F] [--workers N]
        foothold inspect MODEL|FILE.gcode [--report R.json]
        foothold place MODEL... -o OUT.stl [--scale F] [--set path=value]...
        foothold draw MODEL (--layer K | --plane y=12.5) -o OUT.svg [--settings F.json] [--set path=value]...
@@ -279,9 +280,19 @@ function parsed<T extends ParseArgsConfig>(config: T): ReturnType<typeof parseAr
     return parseArgs<T>(config);
   } catch (error) {
     const [first = ''] = (error instanceof Error ? error.message : String(error)).split(/\. |\n/);
-    const hint = first.startsWith('Unknown option') ? ': settings are given as --set path=value, see --help' : '';
-    throw new UsageError(first.charAt(0).toLowerCase() + first.slice(1) + hint);
+    throw new UsageError(first.charAt(0).toLowerCase() + first.slice(1) + optionHint(first, config));
   }
+}
+
+/** What an unknown option was meant to be: one that is there, or a setting. */
+function optionHint(message: string, { options = {} }: ParseArgsConfig): string {
+  const [, option] = /^Unknown option '(-[^']+)'/.exec(message) ?? [];
+  if (option === undefined) return '';
+  const near = hint(
+    option,
+    Object.keys(options).map((name) => `--${name}`),
+  );
+  return near === '' ? ': settings are given as --set path=value, see --help' : near;
 }
 
 interface SettingValues {

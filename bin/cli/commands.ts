@@ -39,7 +39,7 @@ export async function slice({ models, out, settings, own, report, workers, scale
       reportOut?.write([gcode.joined.report, '\n']);
       target.finish();
       reportOut?.finish();
-      const file = out === undefined && process.stderr.isTTY ? [`wrote ${gcode.joined.fileName}`] : [];
+      const file = out === undefined ? [`wrote ${gcode.joined.fileName}`] : [];
       return [...remarkLines(gcode.joined.report), ...file];
     } finally {
       progress.clear();

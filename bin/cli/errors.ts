@@ -1,6 +1,7 @@
 // Any error -> one line and the exit code for it.
 import { EngineError } from '../../www/src/slicer/errors.ts';
 import { UsageError } from './args.ts';
+import { settingHint } from './nearest.ts';
 
 /** A file of the user that can't be used: a model (3), or settings and output (2). */
 export class FileError extends Error {
@@ -32,12 +33,17 @@ export function reasonOf(error: unknown): string {
 const aboutWords = ['SettingsError', 'UsageError'];
 const engineCodes: Record<string, number> = { UsageError: 2, SettingsError: 2, ModelError: 3, FitError: 4 };
 
-/** The exit code and the line for stderr. */
-export function verdict(error: unknown, models: readonly string[]): { code: number; line: string } {
+/** The exit code and the line for stderr; `asked` are the paths of settings that were given as words. */
+export function verdict(
+  error: unknown,
+  models: readonly string[],
+  asked: readonly string[] = [],
+): { code: number; line: string } {
   if (error instanceof UsageError) return { code: 2, line: error.message };
   if (error instanceof FileError) return { code: error.exitCode, line: error.message };
   if (error instanceof EngineError) {
-    return { code: engineCodes[error.name] ?? 1, line: oneLine(`${subject(error, models)}${message(error)}`) };
+    const meant = error.name === 'SettingsError' ? settingHint(error.message, asked) : '';
+    return { code: engineCodes[error.name] ?? 1, line: oneLine(`${subject(error, models)}${message(error)}${meant}`) };
   }
   return {
     code: 1,

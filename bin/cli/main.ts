@@ -14,7 +14,7 @@ export async function main(words: readonly string[]): Promise<void> {
     command = parseCommand(words);
     await perform(command);
   } catch (error) {
-    const { code, line } = verdict(error, modelsOf(command));
+    const { code, line } = verdict(error, modelsOf(command), pathsOf(command));
     process.exitCode = code;
     process.stderr.write(`foothold: ${line}\n`);
   } finally {
@@ -55,6 +55,13 @@ function modelsOf(command: Command | undefined): readonly string[] {
   if (command === undefined) return [];
   if ('models' in command) return command.models;
   return 'model' in command ? [command.model] : [];
+}
+
+/** Paths of the settings that were given as words. */
+function pathsOf(command: Command | undefined): readonly string[] {
+  const sets = command !== undefined && 'settings' in command ? command.settings.sets : [];
+  const own = command !== undefined && 'own' in command ? command.own.map(({ set }) => set) : [];
+  return [...sets, ...own].map((set) => set.slice(0, set.indexOf('=')));
 }
 
 function stop(signal: 'SIGINT' | 'SIGTERM' | 'SIGHUP'): void {

@@ -419,7 +419,7 @@ impl<'a> Reader<'a> {
                 self.machine.take_m(rest);
                 Some(())
             }
-            b'S' | b's' => {
+            b'S' | b'P' | b'E' => {
                 self.machine.take_macro(code);
                 Some(())
             }
@@ -603,13 +603,19 @@ impl Machine {
         self.temperatures[heater] = value.unwrap_or(self.temperatures[heater]);
     }
 
-    /// Klipper's SET_VELOCITY_LIMIT VELOCITY=value ACCEL=value.
+    /// Klipper's SET_VELOCITY_LIMIT VELOCITY=value ACCEL=value, and the macros that by custom end a print.
     fn take_macro(&mut self, code: &[u8]) {
+        let code = code.to_ascii_uppercase();
         let mut words = code.split(u8::is_ascii_whitespace);
-        if !words.next().is_some_and(|name| name.eq_ignore_ascii_case(b"SET_VELOCITY_LIMIT")) {
-            return;
+        match words.next() {
+            Some(b"SET_VELOCITY_LIMIT") => {}
+            Some(b"PRINT_END" | b"END_PRINT") => {
+                self.temperatures = [0.0; 2];
+                return;
+            }
+            _ => return,
         }
-        for word in words.map(<[u8]>::to_ascii_uppercase) {
+        for word in words {
             let value = |name: &[u8]| word.strip_prefix(name).and_then(number).map(|(value, _)| value);
             state(&mut self.acceleration, value(b"ACCEL="));
             state(&mut self.stated.max_speed[0], value(b"VELOCITY="));

@@ -172,8 +172,19 @@ test('a dropped file opens', async ({ page }) => {
 test('errors stand in words, and the next model opens', async ({ page }, { outputDir }) => {
   await opened(page);
   await openFile(page, fileIn(outputDir, 'cut.stl', binaryStl(box(20, 20, 20), 120)));
-  await expect(page.getByRole('alert')).toContainText('header says 120 triangles, file holds 12');
-  await expect(sliceButton(page)).toBeDisabled();
+  await expect(page.getByRole('alert')).toContainText('cut.stl: truncated: header says 120 triangles, file holds 12');
+  // What was open before is still there, as it was.
+  await expect(page.getByText('sample.stl', { exact: true })).toBeVisible();
+  await sliceButton(page).click();
+  await expect(downloadButton(page)).toBeEnabled();
+  await stepTab(page, 'Prepare').click();
+  await page.evaluate(() => {
+    const data = new DataTransfer();
+    data.items.add(new File(['{"layers": {"height": 0.3}}'], 'coarse.json'));
+    window.dispatchEvent(new DragEvent('drop', { dataTransfer: data, cancelable: true }));
+  });
+  await expect(page.getByText('sample.stl', { exact: true })).toBeVisible();
+  await expect(page.getByLabel('Layer height').first()).toHaveValue('0.3');
 
   await openFile(page, fileIn(outputDir, 'tower.stl', binaryStl(box(10, 10, 900))));
   await expect(page.getByText('10 × 10 × 900 mm')).toBeVisible();

@@ -35,6 +35,8 @@ test.each([
   ['melt a.stl', 'no command "melt"'],
   ['slice', 'slice needs a model'],
   ['slice a.stl --wrokers 2', "unknown option '--wrokers'"],
+  ['slice a.stl --prnter ender3', "unknown option '--prnter'; did you mean --printer?"],
+  ['slice a.stl --walls 2', 'settings are given as --set path=value'],
   ['slice a.stl --workers 0', '--workers 0: expected a whole number from 1 to 64'],
   ['slice a.stl --workers two', '--workers two'],
   ['slice a.stl --workers', 'argument missing'],

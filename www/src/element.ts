@@ -147,7 +147,7 @@ export class FootholdSlicer extends HTMLElement implements FootholdSlicerElement
       const fault = this.#fault();
       if (fault !== undefined) throw named(fault);
       const [session, source] = await Promise.all([app.session, sourceOf(model)]);
-      await session.open([source]);
+      await session.replace([source]);
     } catch (error) {
       const { engine } = app.store.state;
       if (typeof engine === 'string') app.store.update({ model: { kind: 'failed', problem: problemOf(error) } });

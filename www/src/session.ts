@@ -78,8 +78,25 @@ export class Session {
     }
   }
 
-  /** Opens models instead of those that were open; a job under way is cancelled. */
-  open(sources: readonly ModelSource[]): Promise<void> {
+  /**
+   * Opens models instead of those that were open; a job under way is cancelled. Those that were open come back when
+   * the new ones can't be read.
+   */
+  async open(sources: readonly ModelSource[]): Promise<void> {
+    const before = this.#store.state;
+    await this.#open(sources, 'prepare');
+    const { model } = this.#store.state;
+    if (model.kind !== 'failed' || before.model.kind !== 'open') return;
+    const isCurrent = (): boolean => this.#store.state.model === model;
+    await this.#pool.open(before.model.models.map(({ source }) => source)).catch(() => undefined);
+    const { parts, arranged, selected, history, result } = before;
+    const job = { kind: result === undefined ? 'idle' : 'done' } as const;
+    const plan = { model: before.model, parts, arranged, selected, history, result, job };
+    if (isCurrent()) this.#store.update({ ...plan, trouble: model.problem });
+  }
+
+  /** Opens models instead of those that were open, which don't come back. */
+  replace(sources: readonly ModelSource[]): Promise<void> {
     return this.#open(sources, 'prepare');
   }
 
@@ -532,10 +549,12 @@ function notesOf({ mapped, changed, unknown }: Imported, name: string): readonly
 export function problemOf(error: unknown): Problem {
   const known = error instanceof EngineError || (error instanceof Error && error.name in t.problem);
   const fix = error instanceof EngineError && error.fix !== undefined ? { fix: JSON.parse(error.fix) as Edit } : {};
+  const file = error instanceof EngineError && error.source !== undefined ? { file: error.source } : {};
   return {
     name: known ? (error as Error).name : 'InternalError',
     message: error instanceof Error ? error.message : String(error),
     ...fix,
+    ...file,
   };
 }
 

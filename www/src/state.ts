@@ -17,6 +17,8 @@ import type { ColourBy, RoleColour } from './view/colours.ts';
 export interface Problem {
   readonly name: string;
   readonly message: string;
+  /** The file that can't be read. */
+  readonly file?: string;
   /** A change to every part that would mend it. */
   readonly fix?: Edit;
 }

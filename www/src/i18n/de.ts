@@ -33,6 +33,7 @@ export const de: Words = {
     hint: 'oder STL-, 3MF-, OBJ- oder G-Code-Dateien irgendwo ablegen',
     drop: 'Loslassen, um die Dateien zu öffnen',
     reading: (name) => `${name} wird gelesen …`,
+    unreadable: 'Eine andere Datei öffnen oder diese in ihrem Programm noch einmal speichern.',
     triangles: (count) => `${format.number(count, 0)} ${count === 1 ? 'Dreieck' : 'Dreiecke'}`,
     opened: (name) => `${name} ist geöffnet.`,
     badAddress:

@@ -34,6 +34,7 @@ export const en = {
     hint: 'or drop STL, 3MF, OBJ or G-code files anywhere',
     drop: 'Drop the files to open them',
     reading: (name: string) => `Reading ${name}…`,
+    unreadable: 'Open another file, or save this one again in the program it comes from.',
     triangles: (count: number) => `${format.number(count, 0)} ${count === 1 ? 'triangle' : 'triangles'}`,
     opened: (name: string) => `${name} is open.`,
     badAddress:

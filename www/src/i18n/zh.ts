@@ -33,6 +33,7 @@ export const zh: Words = {
     hint: '或将 STL、3MF、OBJ 或 G-code 文件拖到页面任意位置',
     drop: '松开即可打开 STL、3MF 或 OBJ 文件',
     reading: (name) => `正在读取 ${name}…`,
+    unreadable: '请打开其他文件，或在原程序中重新保存此文件。',
     triangles: (count) => `${format.number(count, 0)} 个三角形`,
     opened: (name) => `已打开 ${name}。`,
     badAddress: '页面地址指向其他网站上的模型。这种方式只能打开与本页面放在一起的模型。',

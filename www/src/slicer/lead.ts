@@ -43,7 +43,7 @@ export class Lead {
       case 'open':
         return { kind: 'open', ...(await this.#open(request.sources, request.keep)) };
       case 'unpack':
-        return { kind: 'unpack', sources: await modelsIn(request.source, this.#loadFiles) };
+        return { kind: 'unpack', sources: await this.#unpack(request.source) };
       case 'stl':
         return { kind: 'stl', stl: this.#stl(request.settings, request.standing) };
       case 'gcode':
@@ -119,6 +119,14 @@ export class Lead {
     }
     const parse_ms = performance.now() - started;
     return { inspections: this.#models.map((model) => model.inspect()), parse_ms };
+  }
+
+  async #unpack(source: ModelSource): Promise<readonly ModelSource[]> {
+    try {
+      return await modelsIn(source, this.#loadFiles);
+    } catch (error) {
+      throw new EngineError(toFailure(error, source.name));
+    }
   }
 
   async #read({ name, file }: ModelSource): Promise<Model> {

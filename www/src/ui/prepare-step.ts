@@ -38,7 +38,7 @@ export class PrepareStep extends StepPart {
         <drop-zone
           .model=${model}
           .starting=${engine === 'starting'}
-          @open-files=${({ detail }: CustomEvent<readonly File[]>) => void this.session?.open(detail.map(sourceOf))}
+          @open-files=${({ detail }: CustomEvent<readonly File[]>) => this.#open(detail)}
           @add-files=${({ detail }: CustomEvent<readonly File[]>) => void this.session?.add(detail.map(sourceOf))}
           @scale-model=${({ detail: { model, factor } }: CustomEvent<ScaleModel>) =>
             void this.session?.changeAll({ kind: 'scale', factors: [factor, factor, factor] }, model)}
@@ -84,6 +84,12 @@ export class PrepareStep extends StepPart {
         ${rows.length === 0 ? nothing : html`<dl class="fixed">${rows}</dl>`}
       </section>
     `;
+  }
+
+  /** Opens models; a file of settings, which one may drop as well, is taken over. */
+  #open(files: readonly File[]): void {
+    const settings = files.find(({ name }) => /\.(json|ini|cfg|curaprofile)$/i.test(name));
+    void (settings === undefined ? this.session?.open(files.map(sourceOf)) : this.session?.importSettings(settings));
   }
 
   #parts(models: Extract<typeof this.state.model, { kind: 'open' }>['models']): TemplateResult {

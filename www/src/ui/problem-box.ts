@@ -6,6 +6,9 @@ import type { Edit } from '../messages.ts';
 import { pathIn } from '../settings/fields.ts';
 import type { Problem } from '../state.ts';
 
+/** What the title says already. */
+const TITLE = /^does not fit the printer: /;
+
 /**
  * `mend` makes the change that the problem proposes, `show` goes to the setting that it is about; without them
  * neither is offered.
@@ -15,14 +18,14 @@ export function problemBox(
   mend?: (fix: Edit) => void,
   show?: (path: string) => void,
 ): TemplateResult {
-  const { fix } = problem;
+  const { fix, file } = problem;
   const path = problem.name === 'SettingsError' ? pathIn(problem.message) : undefined;
   const known = t.problem[problem.name in t.problem ? (problem.name as ProblemName) : 'InternalError'];
   return html`
     <div class="problem" role="alert">
       <p class="problem-title">${known.title}</p>
-      <p>${problem.message}</p>
-      <p class="advice">${known.advice}</p>
+      <p>${file === undefined ? '' : `${file}: `}${problem.message.replace(TITLE, '')}</p>
+      <p class="advice">${file === undefined ? known.advice : t.model.unreadable}</p>
       ${
         fix === undefined || mend === undefined
           ? nothing
