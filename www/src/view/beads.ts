@@ -17,7 +17,8 @@ import {
   Vector3,
 } from 'three';
 import type { Moves } from '../messages.ts';
-import { type Detail, layersDrawnAs } from './pace.ts';
+import { type Inside, sharesOf } from './outside.ts';
+import { COARSEST, type Detail, layersDrawnAs } from './pace.ts';
 
 /** Moves in a row of the textures, as bits. */
 const ROW_BITS = 10;
@@ -103,18 +104,9 @@ interface Batch {
   readonly all: Ribbons;
   /**
    * What is seen from outside, for devices that are too slow to draw all while the picture moves: every layer that
-   * only detail 1 shows, then those that detail 2 adds to 3, 3 to 4, and what 4 shows.
+   * only detail 1 shows, then those that detail 2 adds to 3, 3 to 4, what 4 shows, and the layer on the bed.
    */
   outside?: readonly Share[];
-}
-
-/** Layers that the coarsest detail draws as one. */
-const MOST_LAYERS = 8;
-
-/** The coarsest detail that shows layer `k` of a batch: the uppermost of eight layers stands for them all. */
-export function coarsestWith(k: number): Detail {
-  const place = (k % MOST_LAYERS) + 1;
-  return place % 8 === 0 ? 4 : place % 4 === 0 ? 3 : place % 2 === 0 ? 2 : 1;
 }
 
 export class Beads {
@@ -128,7 +120,7 @@ export class Beads {
   #batches: Batch[] = [];
   #shown: readonly [layer: number, moves: number] = [0, 0];
   #detail: Detail = 0;
-  #inside: ReadonlySet<number> = new Set();
+  #inside: Inside = { covered: new Set(), hidden: new Set() };
 
   constructor() {
     this.#palette.minFilter = NearestFilter;
@@ -226,8 +218,7 @@ export class Beads {
     return waiting.length > 0;
   }
 
-  /** `inside`: the indices of beads that are not seen from outside. */
-  paint(palette: Uint8Array<ArrayBuffer>, inside: ReadonlySet<number>): void {
+  paint(palette: Uint8Array<ArrayBuffer>, inside: Inside): void {
     this.#inside = inside;
     this.#palette.image.data?.set(palette);
     this.#palette.needsUpdate = true;
@@ -258,10 +249,14 @@ export class Beads {
     }
   }
 
-  #outside({ moves, all }: Batch): Share[] {
-    return sharesOf(moves, this.#inside).map((kept) => {
+  #outside(batch: Batch): Share[] {
+    const { moves, all } = batch;
+    const k = this.#batches.indexOf(batch);
+    return sharesOf(moves, this.#inside, k === 0, this.#batches[k + 1]?.moves).map((kept, share) => {
       const some = { layers: moves.layers, ends: picked(moves.ends, 6, kept), sizes: picked(moves.sizes, 2, kept) };
-      return { ...this.#ribbons(some, picked(all.indices, 1, kept), this.#coarseMaterial), kept };
+      // What lies on the bed stands for no layers below it.
+      const material = share < COARSEST ? this.#coarseMaterial : this.#material;
+      return { ...this.#ribbons(some, picked(all.indices, 1, kept), material), kept };
     });
   }
 
@@ -306,23 +301,6 @@ function showUpTo({ mesh, ends }: Ribbons, inside: number, moves: number): boole
   const shown = inside < 0 ? 0 : inside >= ends.length ? total : Math.min(before + moves, ends[inside] ?? total);
   mesh.geometry.setDrawRange(0, 6 * shown);
   return shown > 0;
-}
-
-/** Positions of the moves that can be seen from outside, by the coarsest detail that shows them. */
-export function sharesOf(
-  { roles, sizes, layers }: Pick<Moves, 'roles' | 'sizes' | 'layers'>,
-  inside: ReadonlySet<number>,
-): Uint32Array[] {
-  const isInside = Uint8Array.from({ length: 256 }, (_, role) => (inside.has(role) ? 1 : 0));
-  const shares: number[][] = [[], [], [], []];
-  let k = 0;
-  for (const [layer, end] of layers.entries()) {
-    const share = shares[coarsestWith(layer) - 1];
-    for (; k < end; k++) {
-      if ((sizes[2 * k] ?? 0) > 0 && isInside[roles[k] ?? 0] === 0) share?.push(k);
-    }
-  }
-  return shares.map((share) => Uint32Array.from(share));
 }
 
 /** The entries of `kept`, `width` numbers each. */

@@ -1,5 +1,6 @@
 // What the colours of the picture in space mean: a role each, or a scale for a quantity.
 import type { Moves } from '../messages.ts';
+import type { Inside } from './outside.ts';
 
 export type ColourBy = 'role' | 'speed' | 'width' | 'flow' | 'fan' | 'tool';
 
@@ -89,12 +90,14 @@ export function palette(
   return colours;
 }
 
-/** Roles that the walls around them hide, by name. */
-const inside: readonly string[] = ['inner_wall', 'gap_fill', 'solid_infill', 'infill'];
+/** Roles that the walls around them hide, by name, where something lies on them. */
+const covered: readonly string[] = ['inner_wall', 'gap_fill', 'solid_infill'];
 
 /** The indices of roles that are not seen from outside. */
-export function insideRoles(roles: readonly RoleColour[]): ReadonlySet<number> {
-  return new Set(roles.flatMap(({ role }, k) => (inside.includes(role) ? [k] : [])));
+export function insideRoles(roles: readonly RoleColour[]): Inside {
+  const those = (names: readonly string[]): ReadonlySet<number> =>
+    new Set(roles.flatMap(({ role }, k) => (names.includes(role) ? [k] : [])));
+  return { covered: those(covered), hidden: those(['infill']) };
 }
 
 /** The colour of a scale at 0 to 1. */

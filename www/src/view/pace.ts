@@ -7,7 +7,7 @@
 export type Detail = 0 | 1 | 2 | 3 | 4;
 
 /** The least that is drawn. */
-const COARSEST: Detail = 4;
+export const COARSEST = 4 satisfies Detail;
 
 /** Layers that one layer of a picture stands for. */
 export const layersDrawnAs = (detail: Detail): number => 2 ** Math.max(detail - 1, 0);

@@ -32,6 +32,7 @@ import { Bed } from './bed.ts';
 import type { Size, Spot } from './camera.ts';
 import { FrameQueue } from './frame-queue.ts';
 import { eyeOf, FIELD_OF_VIEW, type Orbit, type Point } from './orbit.ts';
+import type { Inside } from './outside.ts';
 import { type Pace, paced, rested, unhurried, whole } from './pace.ts';
 import { Sheets } from './sheets.ts';
 import { hasGraphicsCard } from './webgl.ts';
@@ -218,7 +219,7 @@ export class Stage {
     this.redraw();
   }
 
-  paintBeads(palette: Uint8Array<ArrayBuffer>, inside: ReadonlySet<number>): void {
+  paintBeads(palette: Uint8Array<ArrayBuffer>, inside: Inside): void {
     this.#beads.paint(palette, inside);
     this.redraw();
   }
