@@ -52,7 +52,48 @@ export function layersOf(gcode: Gcode, first: number, last: number): Uint8Array<
   const start = sources.indexOf(first + 1);
   const before = start > 0 && sources[start - 1] === 0 ? start - 1 : start;
   const parts = partsOf(gcode).slice(before, sources.lastIndexOf(last) + 1);
-  return joined([RELATIVE, ...parts]);
+  return joined([RELATIVE, encoder.encode(switchedBefore(gcode, first)), ...parts]);
+}
+
+/** The lines that last set the fan and chose the tool. */
+interface Switched {
+  readonly fan: string;
+  readonly tool: string;
+}
+
+/** What is switched after each layer, as far as it has been asked for. */
+const switched = new WeakMap<Gcode, Switched[]>();
+
+/** The lines that bring a reader of layer `layer` alone to the fan's speed and the tool of the whole file. */
+function switchedBefore(gcode: Gcode, layer: number): string {
+  const known = switched.get(gcode) ?? [];
+  switched.set(gcode, known);
+  const parts = partsOf(gcode);
+  const sources = gcode.joined.pieces.filter((_, k) => k % 3 === 0);
+  for (let k = known.length; k < layer; k++) {
+    const some = parts.slice(k === 0 ? 0 : sources.lastIndexOf(k) + 1, sources.lastIndexOf(k + 1) + 1);
+    known.push(some.reduce(switchedIn, known[k - 1] ?? { fan: '', tool: '' }));
+  }
+  const { fan, tool } = known[layer - 1] ?? { fan: '', tool: '' };
+  return fan + tool;
+}
+
+function switchedIn({ fan, tool }: Switched, text: Uint8Array): Switched {
+  return { fan: lastLine(text, 'M', /^M10[67]\b/) ?? fan, tool: lastLine(text, 'T', /^T\d/) ?? tool };
+}
+
+const NEW_LINE = 0x0a;
+
+/** The last line that begins with `letter` and is as `pattern` says. */
+function lastLine(text: Uint8Array, letter: string, pattern: RegExp): string | undefined {
+  const code = letter.charCodeAt(0);
+  for (let at = text.lastIndexOf(code); at >= 0; at = at === 0 ? -1 : text.lastIndexOf(code, at - 1)) {
+    if (at > 0 && text[at - 1] !== NEW_LINE) continue;
+    const end = text.indexOf(NEW_LINE, at);
+    const line = new TextDecoder().decode(text.subarray(at, end < 0 ? text.length : end));
+    if (pattern.test(line)) return `${line}\n`;
+  }
+  return undefined;
 }
 
 function joined(parts: readonly Uint8Array[]): Uint8Array<ArrayBuffer> {
