@@ -164,6 +164,64 @@ fn at_a_t_the_bar_goes_through_and_the_stem_ends_at_it() {
     assert!((plastic(&beads) / shape.area() - 1.0).abs() < 0.02);
 }
 
+/// The bar of a 4: its short end beyond the stem is as wide as long.
+#[test]
+fn a_stub_beyond_a_crossing_keeps_a_bead() {
+    let bars = [bar((0.0, -3.0), (0.0, 3.0), 0.55), bar((-3.0, 0.0), (0.65, 0.0), 0.55)];
+    let beads = fill(&PolygonSet::union_all(&bars));
+    let is_stub = |path: &&Path| path.points.iter().all(|p| p.x > 0.2 && p.y.abs() < 0.01);
+    let stub = beads.paths.iter().find(is_stub).expect("a bead in the stub");
+    let end = stub.points.iter().map(|p| p.x).fold(f64::MIN, f64::max);
+    assert!((end - (0.65 - PI / 8.0 * 0.55)).abs() < 0.02, "{end}");
+}
+
+/// A 1 as on `bridge_test.stl`: its stem goes on to the top, and the flag ends at the stem.
+#[test]
+fn a_stroke_that_another_meets_below_its_end_goes_on_to_it() {
+    let one = area(&[
+        (-0.909, -0.576),
+        (-0.676, -0.473),
+        (-0.461, -0.343),
+        (-0.264, -0.185),
+        (-0.172, -0.095),
+        (-0.172, -2.24),
+        (0.399, -2.24),
+        (0.399, 0.768),
+        (-0.064, 0.768),
+        (-0.134, 0.615),
+        (-0.23, 0.474),
+        (-0.353, 0.344),
+        (-0.499, 0.226),
+        (-0.642, 0.129),
+        (-0.779, 0.054),
+        (-0.909, 0.0),
+    ]);
+    let beads = fill(&one);
+    // About 0.3 mm below the middle of the top, as wide as the place is there.
+    assert!(beads.paths.iter().any(|path| path.is_near(dvec2(0.08, 0.48), 0.05)), "{beads:?}");
+}
+
+/// A half disc: both ends of its line lie in corners, in which a bead as wide as its middle would stick out.
+#[test]
+fn a_bead_is_as_narrow_at_its_end_as_its_place() {
+    let arc = |i: usize| {
+        let (sin, cos) = sin_cos(PI * i as f64 / 24.0);
+        (0.55 * cos, 0.5 * sin)
+    };
+    let shape = area(&(0..=24).map(arc).collect::<Vec<_>>());
+    for path in &fill(&shape).paths {
+        for end in [0, path.points.len() - 1] {
+            let (at, radius) = (path.points[end], path.width.at(end) / 2.0);
+            let sticks_out = shape.contours()[0].edges().map(|(a, b)| {
+                let share = ((at - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+                radius - at.distance(a.lerp(b, share))
+            });
+            let most = sticks_out.fold(f64::MIN, f64::max);
+            assert!(most < 0.05, "{most} at {at}");
+        }
+    }
+}
+
 #[test]
 fn at_a_crossing_one_line_goes_through() {
     let bars = [bar((0.0, 0.0), (8.0, 8.0), 0.5), bar((0.0, 8.0), (8.0, 0.0), 0.5)];

@@ -545,3 +545,20 @@ fn lay_paths(
     meta.timing.toolpath += clock() - after_regions + before_regions - started;
     ordered
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::polygon::dvec2;
+
+    #[test]
+    fn thin_places_that_are_outlined_are_told_once_a_layer_with_the_first_place() {
+        assert_eq!(fallback_warning(&[], 3), None);
+        let told = fallback_warning(&[dvec2(1.5, 2.0), dvec2(9.0, 9.0)], 3).expect("a warning");
+        assert_eq!(
+            (told.code.as_str(), told.layer, told.at),
+            ("thin_place_outlined", Some(3), Some([1.5, 2.0]))
+        );
+        assert!(told.message.contains("2 thin place(s)"), "{}", told.message);
+    }
+}

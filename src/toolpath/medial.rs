@@ -210,3 +210,24 @@ fn compare_points(a: &[DVec2], b: &[DVec2]) -> std::cmp::Ordering {
     let by_points = a.iter().zip(b).map(|(&p, &q)| by_x_then_y(p, q));
     by_points.fold(std::cmp::Ordering::Equal, |found, next| found.then(next)).then(a.len().cmp(&b.len()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::polygon::dvec2;
+
+    /// What follows the outline where no middle line is found.
+    #[test]
+    fn loops_of_the_smallest_width_follow_an_outline_and_say_where() {
+        let strip = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(10.0, 0.5));
+        let mut beads = ThinBeads::default();
+        follow_outline(&strip, &ThinFill::default(), &mut beads);
+        let [path] = &beads.paths[..] else { panic!("{} paths", beads.paths.len()) };
+        assert!(path.closed && path.width == Width::Uniform(0.2));
+        let length = 2.0 * (9.8 + 0.3);
+        assert!((path.length() - length).abs() < 1e-3, "{}", path.length());
+        assert!((beads.left_mm2 - (5.0 - 0.2 * length)).abs() < 1e-3, "{}", beads.left_mm2);
+        let [at] = beads.fallbacks[..] else { panic!("{:?}", beads.fallbacks) };
+        assert!(strip.contours()[0].points.contains(&at));
+    }
+}

@@ -16,6 +16,16 @@ const WIDTH_TOLERANCE: f64 = 0.02;
 /// A line of a compact area, shorter than this many radii, has no direction of its own.
 const NO_DIRECTION: f64 = 0.3;
 
+/// How much shorter than `min_length` a wide bead that begins at another may be.
+const SHORTEST: f64 = 0.35;
+
+/// A line that meets another aslant goes on by this share of what its farther side has to go, times the
+/// cosine of the angle between them; its round end covers the rest.
+const SLANTED_REACH: f64 = 0.7;
+
+/// Length of the line of a stub that ends just beyond another bead, mm.
+const STUB_MM: f64 = 0.1;
+
 /// Widths are rounded to this, mm: the grid of positions.
 const WIDTHS_PER_MM: f64 = 1e4;
 
@@ -27,17 +37,26 @@ pub(super) fn lay(chain: &Chain, triangles: &Triangles, options: &ThinFill, bead
     };
     let free_ends = chain.ends.into_iter().flatten().zip([line.first(), line.last()]);
     let free_ends = free_ends.filter(|(end, _)| matches!(end, End::Strip { .. }));
+    let is_alone = chain.ends.is_none_or(|ends| ends.iter().all(|e| matches!(e, End::Strip { .. })));
     let free_ends: Vec<DVec2> = free_ends.filter_map(|(_, sample)| Some(sample?.at)).collect();
     beads.left_mm2 += swept(&line, closed, |s| 2.0 * s.radius);
     for (run, closed) in thick_runs(line, closed, options.min_thickness) {
         let caps = [run.first(), run.last()].into_iter().flatten().filter(|s| free_ends.contains(&s.at));
         let caps: f64 = caps.map(|s| options.end_inset * bead_width(s, options)).sum();
-        if let Some(path) = bead(&run, closed, options.min_length - caps, options) {
+        let shortest = if is_alone { options.min_length } else { shortest(&run, options) };
+        if let Some(path) = bead(&run, closed, shortest - caps, options) {
             beads.left_mm2 -= swept(&run, closed, |s| bead_width(s, options).min(2.0 * s.radius));
             beads.paths.push(path);
         }
     }
     beads.left_mm2 = beads.left_mm2.max(0.0);
+}
+
+/// Length of the shortest bead along a line that begins at another bead, mm: it holds as much as one of
+/// `min_length` and `min_width`, and has at least [`SHORTEST`] of its length.
+fn shortest(line: &[Sample], options: &ThinFill) -> f64 {
+    let widest = line.iter().map(|s| bead_width(s, options)).fold(options.min_width, f64::max);
+    options.min_length * (options.min_width / widest).max(SHORTEST)
 }
 
 /// The line with both ends where the bead shall end.
@@ -54,21 +73,43 @@ fn ended(mut line: Vec<Sample>, ends: [End; 2], triangles: &Triangles, options: 
         return line;
     }
     for end in [ends[1], ends[0]] {
-        match end {
-            End::Strip { tip } => {
-                cut_hook(&mut line, tip);
-                let outward = -direction(&line, true);
-                carry_to_border(&mut line, outward, triangles, options);
-            }
-            End::Junction { slant } => {
-                let width = line.last().map_or(0.0, |s| bead_width(s, options));
-                trim(&mut line, slant * width / 2.0);
-            }
+        if let End::Strip { tip } = end {
+            cut_hook(&mut line, tip);
+            let outward = -direction(&line, true);
+            carry_to_border(&mut line, outward, triangles, options);
+            fit_end(&mut line, triangles);
         }
         // The start is the end of the reversed line.
         line.reverse();
     }
+    for end in [ends[1], ends[0]] {
+        if let End::Junction { slant } = end {
+            trim_at_junction(&mut line, slant, options);
+        }
+        line.reverse();
+    }
     without_reversals(line)
+}
+
+/// Ends the line where the bead of the line through the junction does. A short stub that reaches out
+/// beyond that bead by the shortest bead's length still keeps a line of [`STUB_MM`].
+fn trim_at_junction(line: &mut Vec<Sample>, slant: f64, options: &ThinFill) {
+    let Some((&far, &near)) = line.first().zip(line.last()) else { return };
+    let farther = SLANTED_REACH * (slant - 1.0 / slant);
+    let (by, whole) = ((slant - farther) * bead_width(&near, options) / 2.0, length(line));
+    let free = whole - by + options.end_inset * bead_width(&far, options);
+    let is_stub = whole > STUB_MM && whole - by < STUB_MM && free >= shortest(&[far], options);
+    trim(line, if is_stub { whole - STUB_MM } else { by });
+}
+
+/// Moves the line's end to the middle between the sides there, and fits its width to them: in a corner, on a
+/// slanted end and beside a junction the place is narrower than where the line came from.
+fn fit_end(line: &mut [Sample], triangles: &Triangles) {
+    let [.., before, last] = line else { return };
+    let side = (last.at - before.at).normalize_or_zero().perp();
+    let reach = |d: DVec2| triangles.ray(last.at, d).map_or(last.radius, |free| free.min(last.radius));
+    let (left, right) = (reach(side), reach(-side));
+    *last = Sample { at: last.at + side * ((left - right) / 2.0), radius: (left + right) / 2.0 };
 }
 
 /// Takes off the last stretch of a line where it only turns into a corner at the strip's end: the

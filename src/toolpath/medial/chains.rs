@@ -12,6 +12,12 @@ pub(super) const SPUR_REACH: f64 = 0.6;
 /// The same along the branch, which a coarse triangulation bends: a right angle's may reach 0.62 radii.
 const MOST_BENT: f64 = 0.8;
 
+/// A spur that reaches less than this is nothing but a corner, in radii.
+const CORNER_REACH: f64 = 0.3;
+
+/// Cosine of the turn up to which a branch goes straight on from another: 30 degrees.
+const STRAIGHT: f64 = 0.87;
+
 /// Junctions closer than this, in radii of the smaller circle, are one: a crossing whose arms are a
 /// little out of line.
 const SAME_JUNCTION: f64 = 0.6;
@@ -157,7 +163,8 @@ fn without_spurs(nodes: &[Node], branches: Vec<Branch>) -> Vec<Branch> {
         let spur = |&h: &Half| {
             let [straight, along] = reach(nodes, &halves, &branches[h / 2], h, junction)?;
             let is_short = straight <= SPUR_REACH * junction.radius && along <= MOST_BENT * junction.radius;
-            is_short.then_some((along, h))
+            (is_short && !goes_on(&branches, halves_here, h, straight / junction.radius))
+                .then_some((along, h))
         };
         let mut spurs: Vec<(f64, Half)> = halves_here.iter().filter_map(spur).collect();
         spurs.stable_sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -168,6 +175,19 @@ fn without_spurs(nodes: &[Node], branches: Vec<Branch>) -> Vec<Branch> {
         }
     }
     branches.into_iter().zip(dropped).filter(|(_, dropped)| !dropped).map(|(b, _)| b).collect()
+}
+
+/// Whether a spur goes straight on where the other two lines of its junction meet at less than 90
+/// degrees: the end of a stroke that another meets just before it, as at the top of a 1.
+fn goes_on(branches: &[Branch], halves: &[Half], spur: Half, reach: f64) -> bool {
+    if halves.len() != 3 || reach < CORNER_REACH {
+        return false;
+    }
+    let way = |h: Half| direction(&branches[h / 2].line, h % 2 == 1);
+    let others = halves.iter().filter(|&&h| h != spur).map(|&h| way(h));
+    let &[a, b] = others.collect::<Vec<_>>().as_slice() else { return false };
+    let on = way(spur);
+    a.dot(b) > 0.0 && (-a.dot(on)).max(-b.dot(on)) > STRAIGHT
 }
 
 /// How far a branch that ends freely reaches beyond the circle at its junction, straight and along it, mm.
