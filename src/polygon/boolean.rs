@@ -36,24 +36,23 @@ impl PolygonSet {
         run(ClipType::Difference, to_paths(self.contours()), to_paths(other.contours()))
     }
 
-    /// Like [`PolygonSet::difference`], each group of contours whose boxes hang together by itself: the library's
-    /// time grows with the number of edges that a level line meets, whether or not they have to do with each other.
-    pub fn difference_by_groups(&self, other: &PolygonSet) -> PolygonSet {
+    /// What of `self` and of `other` hangs together by the boxes of contours, as pairs: a boolean of the two is
+    /// that of each pair. The library's time grows with the number of edges that a level line meets, whether or
+    /// not they have to do with each other.
+    pub fn grouped_with(&self, other: &PolygonSet) -> Vec<[PolygonSet; 2]> {
         let contours: Vec<&Contour> = self.contours().iter().chain(other.contours()).collect();
         let boxes: Vec<Bounds> = contours.iter().filter_map(|c| c.bounds()).collect();
         let groups = groups_of(&boxes, 0.0);
         if groups.len() < 2 || boxes.len() < contours.len() {
-            return self.difference(other);
+            return vec![[self.clone(), other.clone()]];
         }
         let count = self.contours().len();
-        let of = |members: &[usize]| members.iter().map(|&i| contours[i].clone()).collect();
-        let left = groups.iter().flat_map(|group| {
+        let of = |members: &[usize]| PolygonSet::canonical(members.iter().map(|&i| contours[i].clone()).collect());
+        let pair = |group: Vec<usize>| {
             let own = group.partition_point(|&i| i < count);
-            let [subject, clip] =
-                [&group[..own], &group[own..]].map(|members| PolygonSet::canonical(of(members)));
-            subject.difference(&clip).into_contours()
-        });
-        PolygonSet::canonical(left.collect())
+            [of(&group[..own]), of(&group[own..])]
+        };
+        groups.into_iter().map(pair).collect()
     }
 
     /// Like [`PolygonSet::difference`] where contours of `self` may overlap, or run to and fro on one line:

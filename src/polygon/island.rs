@@ -1,7 +1,7 @@
 //! Connected parts of an area, and points inside them.
 
 use super::measure::Bounds;
-use super::{DVec2, Polygon, PolygonSet, dvec2};
+use super::{Contour, DVec2, Polygon, PolygonSet, dvec2};
 
 /// One connected component with its box, for questions that most components answer by the box.
 #[derive(Debug, Clone)]
@@ -38,7 +38,12 @@ impl Island {
 /// A point well inside: in the middle of the widest stretch of the level line that halves the
 /// tallest gap between two neighbouring vertex heights. `None` for a polygon without height.
 pub fn inner_point(polygon: &Polygon) -> Option<DVec2> {
-    let contours = || polygon.contours();
+    inner_point_of(polygon.contours())
+}
+
+/// The same for the contours of an area.
+pub fn inner_point_of<'a>(contours: impl Iterator<Item = &'a Contour> + Clone) -> Option<DVec2> {
+    let contours = || contours.clone();
     let mut heights: Vec<f64> = contours().flat_map(|c| c.points.iter().map(|p| p.y)).collect();
     heights.sort_by(f64::total_cmp);
     let tallest = heights.windows(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;

@@ -1,6 +1,7 @@
 //! Many questions whether a point lies in one area.
 
-use super::{DVec2, PolygonSet};
+use super::measure::Bounds;
+use super::{Contour, DVec2, PolygonSet};
 
 /// The edges of an area sorted into level strips, for many questions whether a point is inside.
 #[derive(Debug)]
@@ -13,19 +14,26 @@ pub struct Strips {
 impl Strips {
     /// Sorts the edges of `area`.
     pub fn new(area: &PolygonSet) -> Strips {
-        let (low, height) = area.bounds().map_or((0.0, 0.0), |b| (b.min.y, b.size().y));
-        let count = (area.vertex_count() / 4).clamp(1, 512);
+        Strips::of_contours(area.contours())
+    }
+
+    /// The same for contours that may overlap: what they wind around is inside.
+    pub fn of_contours(contours: &[Contour]) -> Strips {
+        let bounds = Bounds::of_points(contours.iter().flat_map(|c| &c.points));
+        let (low, height) = bounds.map_or((0.0, 0.0), |b| (b.min.y, b.size().y));
+        let vertices: usize = contours.iter().map(|c| c.points.len()).sum();
+        let count = (vertices / 4).clamp(1, 512);
         let mut strips =
             Strips { low, per_mm: count as f64 / height.max(1e-3), edges: vec![Vec::new(); count] };
-        for (a, b) in area.contours().iter().flat_map(|c| c.edges()) {
-            for strip in strips.of(a.y.min(b.y))..=strips.of(a.y.max(b.y)) {
+        for (a, b) in contours.iter().flat_map(Contour::edges) {
+            for strip in strips.at(a.y.min(b.y))..=strips.at(a.y.max(b.y)) {
                 strips.edges[strip].push((a, b));
             }
         }
         strips
     }
 
-    fn of(&self, y: f64) -> usize {
+    fn at(&self, y: f64) -> usize {
         (((y - self.low) * self.per_mm) as usize).min(self.edges.len() - 1)
     }
 
@@ -34,6 +42,7 @@ impl Strips {
         let crosses = |&&(a, b): &&(DVec2, DVec2)| {
             (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) * (b.x - a.x) / (b.y - a.y)
         };
-        self.edges[self.of(p.y)].iter().filter(crosses).count() % 2 == 1
+        let turn = |&(a, b): &(DVec2, DVec2)| if a.y < b.y { 1 } else { -1 };
+        self.edges[self.at(p.y)].iter().filter(crosses).map(turn).sum::<i32>() != 0
     }
 }

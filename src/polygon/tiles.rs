@@ -126,8 +126,10 @@ impl Tiles {
 /// A connected piece of an area within a tile.
 #[derive(Debug)]
 pub struct Piece {
-    /// The piece.
-    pub island: Island,
+    /// What they wind around is the piece.
+    pub contours: Vec<Contour>,
+    /// The box around it.
+    pub bounds: Bounds,
     /// Where it meets the tile's borders: at the lower and upper end along x, then along y.
     meets: [[Vec<(f64, f64)>; 2]; 2],
 }
@@ -140,7 +142,15 @@ pub fn pieces_of(area: &PolygonSet, bounds: Bounds) -> Vec<Piece> {
 impl Piece {
     fn new(island: Island, bounds: Bounds) -> Piece {
         let meets = [0, 1].map(|axis| [bounds.min, bounds.max].map(|end| edges_on(&island, axis, end[axis])));
-        Piece { island, meets }
+        Piece { contours: island.polygon.into_set().into_contours(), bounds: island.bounds, meets }
+    }
+
+    /// Takes in another piece of the tile that touches this one.
+    pub fn absorb(&mut self, other: Piece) {
+        self.contours.extend(other.contours);
+        self.bounds = self.bounds.union(other.bounds);
+        let stretches = self.meets.iter_mut().flatten().zip(other.meets.into_iter().flatten());
+        stretches.for_each(|(own, further)| own.extend(further));
     }
 
     /// Whether this piece and one of the next tile along `axis` are one component, cut by the border.

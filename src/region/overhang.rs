@@ -42,10 +42,13 @@ pub fn externally_supported(above: &PolygonSet, below: &PolygonSet, step: f64) -
         return PolygonSet::EMPTY;
     }
     let reach = Reach::new(below, step + SNAP_SLACK_MM, MITRE_LIMIT);
-    if reach.holds(above) {
-        return PolygonSet::EMPTY;
+    let groups = above.grouped_with(below).into_iter();
+    let reaching = groups.filter(|[above, _]| !above.is_empty() && !reach.holds(above));
+    let overhang = reaching.flat_map(|[above, below]| above.difference(&below).into_contours());
+    let overhang = PolygonSet::canonical(overhang.collect());
+    if overhang.is_empty() {
+        return overhang;
     }
-    let overhang = above.difference_by_groups(below);
     let islands = Island::all_of(&overhang);
     let mut reaching: Vec<bool> = islands.iter().map(|island| reach.is_left_by(island)).collect();
     let is_open = |(island, reaches): (&Island, &bool)| !reaches && !reach.holds_island(island);

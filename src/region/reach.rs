@@ -149,7 +149,8 @@ impl<'a> Reach<'a> {
         self.grid.nearest_edge(p, far).is_none() && !self.may_be_in_mitre(p, far) && !self.contains(p)
     }
 
-    /// Whether `p` may lie in the growth of a corner: behind neither of its grown edges.
+    /// Whether `p` may lie in the growth of a corner that points outward: past the ends of its two edges, and
+    /// behind neither of them once grown.
     fn may_be_in_mitre(&self, p: DVec2, far: f64) -> bool {
         let around = self.mitre_limit * far;
         if self.grid.nearest_edge(p, around).is_none() {
@@ -159,9 +160,12 @@ impl<'a> Reach<'a> {
             let points = &contour.points;
             let n = points.len();
             (0..n).filter(|&i| points[i].distance_squared(p) <= around * around).any(|i| {
-                let beyond = |a: DVec2, b: DVec2| -(b - a).normalize_or_zero().perp_dot(p - points[i]);
                 let (before, after) = (points[(i + n - 1) % n], points[(i + 1) % n]);
-                beyond(before, points[i]) <= far && beyond(points[i], after) <= far
+                let edges = [points[i] - before, after - points[i]].map(DVec2::normalize_or_zero);
+                let away = p - points[i];
+                edges[0].dot(away) >= -FARTHER_MM
+                    && edges[1].dot(away) <= FARTHER_MM
+                    && edges.iter().all(|edge| -edge.perp_dot(away) <= far)
             })
         })
     }

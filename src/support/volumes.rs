@@ -85,13 +85,17 @@ impl Descent {
     pub fn enter(&mut self, area: PolygonSet, layers: u32) {
         if area != self.area {
             let esf = overhang::externally_supported(&self.area, &area, self.step);
-            if !esf.is_empty() || self.tiles.iter().any(|tile| !tile.region().is_empty()) {
+            if !esf.is_empty() || self.tiles.iter().any(|tile| !tile.parts().is_empty()) {
                 self.replace_region(&area, &esf);
             }
             self.area = area;
         }
-        let region_mm2: f64 = self.tiles.iter().map(Tile::area_mm2).sum();
-        self.support_mm3 += region_mm2 * self.rules.layer_height * f64::from(layers);
+        self.support_mm3 += self.region_mm2() * self.rules.layer_height * f64::from(layers);
+    }
+
+    /// area(S_k) of the layer entered last.
+    fn region_mm2(&self) -> f64 {
+        self.tiles.iter().map(Tile::area_mm2).sum()
     }
 
     fn replace_region(&mut self, area: &PolygonSet, esf: &PolygonSet) {
@@ -129,9 +133,9 @@ impl Descent {
 
     /// The components of S_k of the layer entered last, cut by tiles' borders, each with a mark; marks of one
     /// structure come to the same number in [`Descent::structure_of`] once all layers were entered.
-    pub fn components(&self) -> impl Iterator<Item = (&Polygon, usize)> {
+    pub fn components(&self) -> impl Iterator<Item = (Polygon, usize)> {
         let parts = self.tiles.iter().flat_map(Tile::parts);
-        parts.map(|part| (&part.piece.island.polygon, part.node))
+        parts.flat_map(|part| part.polygons().into_iter().map(|polygon| (polygon, part.node)))
     }
 
     /// A number for the structure that a component belongs to.
@@ -142,8 +146,8 @@ impl Descent {
     /// The figures, once the layer on the bed has been entered.
     pub fn finish(self) -> SupportVolumes {
         let rules = self.rules;
-        let region = PolygonSet::union_all(self.tiles.iter().map(Tile::region));
-        let base_mm2 = region.union(&self.area).area();
+        // Nothing of S_1 lies in A_1.
+        let base_mm2 = self.region_mm2() + self.area.area();
         let (large, specks) = self.structures.count(rules.speck_width * rules.speck_width);
         SupportVolumes {
             support_mm3: self.support_mm3,

@@ -167,7 +167,7 @@ fn descend(areas: &[PolygonSet], rules: VolumeRules) -> (Vec<Vec<(Polygon, usize
     let mut found: Vec<Vec<(Polygon, usize)>> = Vec::with_capacity(areas.len());
     for area in areas.iter().rev() {
         descent.enter(area.clone(), 1);
-        found.push(descent.components().map(|(polygon, mark)| (polygon.clone(), mark)).collect());
+        found.push(descent.components().collect());
     }
     found.reverse();
     for (_, mark) in found.iter_mut().flatten() {
