@@ -47,7 +47,8 @@ impl PolygonSet {
             return vec![[self.clone(), other.clone()]];
         }
         let count = self.contours().len();
-        let of = |members: &[usize]| PolygonSet::canonical(members.iter().map(|&i| contours[i].clone()).collect());
+        let of =
+            |members: &[usize]| PolygonSet::canonical(members.iter().map(|&i| contours[i].clone()).collect());
         let pair = |group: Vec<usize>| {
             let own = group.partition_point(|&i| i < count);
             [of(&group[..own]), of(&group[own..])]

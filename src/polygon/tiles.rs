@@ -5,7 +5,7 @@ use super::boolean::NOTHING_MM2;
 use super::island::Island;
 use super::measure::Bounds;
 use super::sets::Sets;
-use super::{Contour, DVec2, GRID_PER_MM, PolygonSet, dvec2, grid_steps, snap};
+use super::{Contour, DVec2, GRID_PER_MM, Polygon, PolygonSet, dvec2, grid_steps, snap};
 
 /// Pieces of neighbouring tiles that touch along less than this, mm, do so by rounding: three grid steps.
 const TOUCH_MM: f64 = 3e-4;
@@ -142,7 +142,8 @@ pub fn pieces_of(area: &PolygonSet, bounds: Bounds) -> Vec<Piece> {
 impl Piece {
     fn new(island: Island, bounds: Bounds) -> Piece {
         let meets = [0, 1].map(|axis| [bounds.min, bounds.max].map(|end| edges_on(&island, axis, end[axis])));
-        Piece { contours: island.polygon.into_set().into_contours(), bounds: island.bounds, meets }
+        let Polygon { outer, holes } = island.polygon;
+        Piece { contours: std::iter::once(outer).chain(holes).collect(), bounds: island.bounds, meets }
     }
 
     /// Takes in another piece of the tile that touches this one.

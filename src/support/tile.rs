@@ -86,6 +86,10 @@ impl Part {
         self.inside.take();
     }
 
+    fn is_united(&self) -> bool {
+        self.united == self.piece.contours.len()
+    }
+
     fn has_grown(&self) -> bool {
         vertices_of(&self.piece.contours) > GROWN_TIMES * self.united_vertices + GROWN_BY
     }
@@ -106,8 +110,8 @@ impl Part {
 
     /// What it covers; more than one only where rounding parts it.
     pub(super) fn polygons(&self) -> Vec<Polygon> {
-        let is_united = self.united == self.piece.contours.len();
-        if is_united { self.set() } else { PolygonSet::from_contours(self.piece.contours.clone()) }.islands()
+        if self.is_united() { self.set() } else { PolygonSet::from_contours(self.piece.contours.clone()) }
+            .islands()
     }
 }
 
@@ -232,15 +236,14 @@ impl Tile {
         if above.is_empty() {
             return false;
         }
-        let region: Vec<Contour> = above.iter().flat_map(|part| &part.piece.contours).cloned().collect();
-        let region = PolygonSet::canonical(region);
-        let is_more = !new.is_empty();
+        let may_stay = new.is_empty() && above.iter().all(Part::is_united);
         let mut held = new;
-        held.extend_from_slice(region.contours());
-        // These contours overlap: one operand of the difference, which counts what is wound around.
-        let left = PolygonSet::canonical(held).wound_difference(&self.area);
+        held.extend(above.iter().flat_map(|part| &part.piece.contours).cloned());
+        // These contours may overlap: one operand of the difference, which counts what is wound around.
+        let held = PolygonSet::canonical(held);
+        let left = held.wound_difference(&self.area);
         let left = self.without_jags(without_slivers(left), jag);
-        if !is_more && left == region {
+        if may_stay && left == held {
             self.parts.extend(above);
             return false;
         }
@@ -294,8 +297,9 @@ impl Tile {
             inner.is_some_and(|&p| !self.area.contains(p))
         };
         let mut own = contours.iter().flat_map(Contour::edges);
+        // What grew to the part since hangs together with it.
         !own.any(|(a, b)| near.iter().any(|&(c, d)| do_cross(a, b, c, d)))
-            && contours.iter().all(is_outside)
+            && contours[..part.united].iter().all(is_outside)
             && !near.iter().any(|&(p, _)| !self.is_on_border(p) && part.contains(p))
     }
 
