@@ -5,7 +5,7 @@ mod common;
 use foothold::mesh::{Mesh, load, stl::write_binary};
 use foothold::pipeline::{Job, NamedModel, Warning};
 use foothold::settings::Settings;
-use glam::{DMat4, Vec3, dvec3, vec3};
+use glam::{DMat4, Mat3, Vec3, dvec3, vec3};
 
 fn warnings(mesh: &Mesh, sets: &[&str]) -> Vec<Warning> {
     of_bytes(&write_binary(mesh), sets)
@@ -122,6 +122,20 @@ fn an_island_in_the_air_is_told_where_it_begins() {
     assert!((102.0..=106.0).contains(&x) && (102.0..=106.0).contains(&y));
     assert!(codes(&warnings(&part, &["support.method=grid"])).is_empty());
     assert!(codes(&warnings(&part, &["adhesion.kind=raft"])).contains(&"floating_island"));
+}
+
+#[test]
+fn an_island_that_begins_with_an_edge_is_told() {
+    let floor = common::cuboid(Vec3::ZERO, vec3(20.0, 20.0, 2.0));
+    let mut bar = common::cuboid(vec3(5.0, -1.0, -1.0), vec3(15.0, 1.0, 1.0));
+    let turn = Mat3::from_rotation_x(std::f32::consts::FRAC_PI_4);
+    // Its lower edge lies at 5 mm: the layer at 5.1 mm cuts a strip of 0.2 mm.
+    for vertex in &mut bar.vertices {
+        *vertex = turn * *vertex + vec3(0.0, 10.0, 5.0 + 2f32.sqrt());
+    }
+    let found = warnings(&common::together(&[floor, bar]), &[]);
+    let islands: Vec<_> = found.iter().filter(|w| w.code == "floating_island").collect();
+    assert_eq!(islands.iter().map(|w| w.layer).collect::<Vec<_>>(), [Some(25)], "{found:?}");
 }
 
 #[test]
@@ -261,7 +275,8 @@ fn real_models_are_passed_or_rightly_told() {
         ("featuretype_mm.stl", &["overhang", "thin_wall"]),
         ("halfdonut_ascii_tiny.stl", &[]),
         ("hole_test.stl", &[]),
-        ("hollow_cube_ascii.stl", &[]),
+        // The wedge between the arms of a letter cut through its wall.
+        ("hollow_cube_ascii.stl", &["floating_island"]),
         ("idler_riser_mm.stl", &[]),
         // Bodies beside and above each other.
         ("multibody_mm.stl", &["overhang", "floating_island"]),

@@ -9,7 +9,7 @@ pub(super) use places::{Findings, told};
 use super::Warning;
 use crate::gcode;
 use crate::polygon::measure::Bounds;
-use crate::polygon::{DVec2, PolygonSet};
+use crate::polygon::{Contour, DVec2, Polygon, PolygonSet};
 use crate::settings::Settings;
 use crate::support::SupportMethod;
 
@@ -119,10 +119,25 @@ fn forbidden(settings: &Settings, model: Bounds) -> Option<Warning> {
     Some(Warning::on_layer("forbidden_zone", message, 0, reached))
 }
 
+fn length(island: &Polygon) -> f64 {
+    island.contours().map(Contour::length).sum()
+}
+
+/// The islands of a layer, and some more, in which no circle of that radius, mm, finds room: an island is at most as
+/// large as its outline times the radius of the largest circle in it.
+pub(super) fn narrow(area: &PolygonSet, radius: f64) -> PolygonSet {
+    let islands = area.islands().into_iter().filter(|it| it.area() <= radius * length(it));
+    PolygonSet::from_contours(islands.flat_map(|it| it.into_set().into_contours()).collect())
+}
+
 /// The islands of a layer that nothing below holds, each told at a point of it.
 pub(super) fn floating(area: &PolygonSet, below: &PolygonSet, layer: u32) -> Vec<Warning> {
+    if area.is_empty() {
+        return Vec::new();
+    }
+    let held = area.intersection(below);
     let islands = area.islands().into_iter().map(|island| island.into_set());
-    let loose = islands.filter(|island| island.intersection(below).is_empty());
+    let loose = islands.filter(|island| held.is_empty() || island.intersection(&held).is_empty());
     let tell = |island: PolygonSet| {
         let at = island.contours().first()?.points.first().copied()?;
         let message = "an island begins in the air here: it needs supports".to_owned();

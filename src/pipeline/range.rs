@@ -265,14 +265,17 @@ fn floating_islands(plan: &RangePlan, areas: &[PolygonSet], exposures: &[Exposur
     if plan.settings.support.method != SupportMethod::None || !is_known {
         return Vec::new();
     }
+    // What is narrower than two hairs counts as nothing bare.
+    let narrow = plan.settings.walls.width / 2.0 + SKIN_RESOLUTION;
     let on_layer = |place: usize| {
-        let below = place.checked_sub(1).filter(|&b| plan.specs[b].slice_z > 0.0);
-        match below {
-            // A layer with nothing bare below has no such island.
-            Some(below) if !exposures[place].bottom.is_empty() => {
-                check::floating(&areas[place], &areas[below], plan.specs[place].index)
-            }
-            _ => Vec::new(),
+        let Some(below) = place.checked_sub(1).filter(|&b| plan.specs[b].slice_z > 0.0) else {
+            return Vec::new();
+        };
+        let (area, index) = (&areas[place], plan.specs[place].index);
+        // A layer with nothing bare below has no such island but narrow ones.
+        match exposures[place].bottom.is_empty() {
+            true => check::floating(&check::narrow(area, narrow), &areas[below], index),
+            false => check::floating(area, &areas[below], index),
         }
     };
     (plan.first..plan.last).flat_map(on_layer).collect()

@@ -7,8 +7,8 @@ const words = (it: Uint8Array): string => new TextDecoder().decode(it);
 /** A start, three layers with a joining line in front of the later ones, and an end. */
 function gcodeOf(layers: readonly string[]): Gcode {
   const glue = ['M107 ; fan off\nT0\n', ';to 1\n', 'T1\n;to 2\n', 'M107\n'];
-  let at = 0;
-  const spans = glue.map((text) => [0, at, (at += text.length)]);
+  const startOf = (k: number): number => glue.slice(0, k).join('').length;
+  const spans = glue.map((_, k) => [0, startOf(k), startOf(k + 1)]);
   const pieces = layers.flatMap((text, k) => [...(spans[k] ?? []), k + 1, 0, text.length]);
   const joined = { glue: bytes(glue.join('')), pieces: Uint32Array.from([...pieces, ...(spans[3] ?? [])]) };
   return { layers: layers.map(bytes), joined } as unknown as Gcode;

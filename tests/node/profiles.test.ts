@@ -4,6 +4,7 @@ import { expect, test } from 'vitest';
 import { ids, materials, printers, settingsFiles, usbOf } from '../../www/src/profiles/catalog.ts';
 import { chosenIn, isOfProfile, offered, withProfile } from '../../www/src/profiles/choice.ts';
 import { parseSaved } from '../../www/src/profiles/layers.ts';
+import { suited } from '../../www/src/profiles/suits.ts';
 
 test('the catalogue holds every file', () => {
   for (const [kind, folder] of [
@@ -63,4 +64,18 @@ test('settings files may name profiles', () => {
   ] as const) {
     expect(() => parseSaved(text)).toThrow(fault);
   }
+});
+
+test('an imported material has the temperatures that suit it', () => {
+  const of = (filament: object): object => suited({ filament });
+  const petg = { nozzle_temp_range: [220, 260], bed_temp_range: [60, 95] };
+  expect(of({ material: 'PETG', nozzle_temp: 240 })).toEqual({
+    filament: { material: 'PETG', nozzle_temp: 240, ...petg },
+  });
+  expect(of({ material: 'pet' })).toEqual({ filament: { material: 'pet', ...petg } });
+  expect(of({ material: 'PCTG' })).toMatchObject({
+    filament: { nozzle_temp_range: [0, 500], bed_temp_range: [0, 200] },
+  });
+  expect(of({ material: 'PLA', nozzle_temp_range: [1, 2] })).toMatchObject({ filament: { nozzle_temp_range: [1, 2] } });
+  expect(of({ nozzle_temp: 240 })).toEqual({ filament: { nozzle_temp: 240 } });
 });

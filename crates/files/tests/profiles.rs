@@ -54,6 +54,14 @@ fn assert_settings(found: &Imported, expected: Value) {
 }
 
 #[test]
+fn no_limit_of_the_flow_stays_none() {
+    let found = import(b"layer_height = 0.2\nperimeters = 2\nfilament_max_volumetric_speed = 0\n")
+        .expect("a profile");
+    assert_eq!(found.settings["filament"], json!({ "max_volumetric_speed": 1000.0 }));
+    assert_eq!(why(&found, "filament_max_volumetric_speed"), "0 is no limit there");
+}
+
+#[test]
 fn prusa_print() {
     let found = imported("prusa_print.ini");
     assert_eq!(found.slicer, "prusaslicer");

@@ -1,6 +1,7 @@
 // Files of other programs, read by a second wasm module that is loaded when such a file is opened: models in 3MF and
 // OBJ, profiles of other slicers.
 import type { Bytes, GcodeIndex, ModelSource } from '../messages.ts';
+import { suited } from '../profiles/suits.ts';
 import { EngineError, toFailure } from '../slicer/errors.ts';
 import { type Gcode, openedGcode } from '../slicer/gcode.ts';
 
@@ -63,7 +64,8 @@ export interface Entry {
 /** Reads a profile of PrusaSlicer, OrcaSlicer or Cura. Throws a SettingsError. */
 export async function importProfile(profile: Uint8Array, load: LoadFiles): Promise<Imported> {
   const files = await load();
-  return JSON.parse(files.import_profile(profile)) as Imported;
+  const found = JSON.parse(files.import_profile(profile)) as Imported;
+  return { ...found, settings: suited(found.settings) };
 }
 
 /** Whether a file is no STL: a ZIP archive by its first bytes, or by its name; the module looks closer. */

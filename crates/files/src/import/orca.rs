@@ -6,8 +6,8 @@ use super::code::Placeholders;
 use super::prusa::{FLAVORS, MONOTONIC, PATTERNS, SEAMS};
 use super::table::{
     FanNames, Relative, Row, Turn, Values, bed, brim_side, first_of, leave_rest, number, switch, take,
-    take_accelerations, take_all, take_bed, take_bed_only, take_fan, take_supports, take_threshold,
-    take_thumbnails, take_width,
+    take_accelerations, take_all, take_bed, take_bed_only, take_fan, take_flow_limit, take_supports,
+    take_threshold, take_thumbnails, take_width,
 };
 use super::{Collector, Imported, comment_pairs};
 use crate::error::FileError;
@@ -81,7 +81,6 @@ const ROWS: &[Row] = &[
     ("filament_diameter", "filament.diameter", Turn::Number),
     ("filament_density", "filament.density", Turn::Number),
     ("filament_cost", "filament.cost_per_kg", Turn::Number),
-    ("filament_max_volumetric_speed", "filament.max_volumetric_speed", Turn::Number),
     ("nozzle_temperature", "filament.nozzle_temp", Turn::Number),
     ("nozzle_temperature_initial_layer", "filament.first_layer_nozzle_temp", Turn::Number),
     ("hot_plate_temp", "filament.bed_temp", Turn::Number),
@@ -168,6 +167,7 @@ pub(super) fn collected(mut found: Values) -> Imported {
     let brim_width = found.get("brim_width").and_then(|text| number(first_of(text)));
     take_width("inner_wall_line_width", "line_width", &mut found, &mut out);
     take_fan(&FAN, &mut found, &mut out);
+    take_flow_limit(&mut found, &mut out);
     take_all(ROWS, RELATIVE, &mut found, &mut out);
     take_thumbnails(&mut found, &mut out);
     take_accelerations(&mut found, &mut out);

@@ -5,7 +5,8 @@ use serde_json::Value;
 use super::code::Placeholders;
 use super::table::{
     FanNames, Relative, Row, Turn, Values, brim_side, first_of, leave_rest, number, take_accelerations,
-    take_all, take_bed, take_bed_only, take_fan, take_supports, take_threshold, take_thumbnails, take_width,
+    take_all, take_bed, take_bed_only, take_fan, take_flow_limit, take_supports, take_threshold,
+    take_thumbnails, take_width,
 };
 use super::{Collector, Imported, comment_pairs};
 
@@ -88,7 +89,6 @@ const ROWS: &[Row] = &[
     ("filament_diameter", "filament.diameter", Turn::Number),
     ("filament_density", "filament.density", Turn::Number),
     ("filament_cost", "filament.cost_per_kg", Turn::Number),
-    ("filament_max_volumetric_speed", "filament.max_volumetric_speed", Turn::Number),
     ("temperature", "filament.nozzle_temp", Turn::Number),
     ("first_layer_temperature", "filament.first_layer_nozzle_temp", Turn::Number),
     ("bed_temperature", "filament.bed_temp", Turn::Number),
@@ -190,6 +190,7 @@ pub(super) fn import(mut found: Values) -> Imported {
     let brim_width = found.get("brim_width").and_then(|text| number(first_of(text)));
     take_width("perimeter_extrusion_width", "extrusion_width", &mut found, &mut out);
     take_fan(&FAN, &mut found, &mut out);
+    take_flow_limit(&mut found, &mut out);
     take_all(ROWS, RELATIVE, &mut found, &mut out);
     take_thumbnails(&mut found, &mut out);
     take_accelerations(&mut found, &mut out);

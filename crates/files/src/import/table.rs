@@ -60,6 +60,19 @@ pub(crate) fn leave_rest(found: Values, aside: &[&str], out: &mut Collector) {
     }
 }
 
+/// As much as there may be, mm3/s: no printer reaches it.
+const NO_FLOW_LIMIT: f64 = 1000.0;
+
+/// The filament's highest flow; 0 is no limit there.
+pub(crate) fn take_flow_limit(found: &mut Values, out: &mut Collector) {
+    let (key, path) = ("filament_max_volumetric_speed", "filament.max_volumetric_speed");
+    let Some(text) = found.remove(key) else { return };
+    match number(first_of(&text)) {
+        Some(0.0) => out.change(key, &text, path, Value::from(NO_FLOW_LIMIT), "0 is no limit there"),
+        _ => take(&(key, path, Turn::Number), &text, out),
+    }
+}
+
 /// The switch of supports, which are a grid elsewhere.
 pub(crate) fn take_supports(key: &str, found: &mut Values, out: &mut Collector) {
     let Some(text) = found.remove(key) else { return };
