@@ -89,6 +89,26 @@ test('a part outside the printer is marked, and slicing says where it stands', a
   for (const x of xs) expect(Math.abs(x - 50)).toBeLessThan(10);
 });
 
+test('another printer is one step to undo and to do again', async ({ page }) => {
+  await opened(page);
+  const [undo, redo] = ['Undo', 'Redo'].map((name) => page.getByRole('button', { name }));
+  if (undo === undefined || redo === undefined) throw new Error('no history');
+  const printer = page.getByLabel('Printer', { exact: true });
+  await part(page, 'sample.stl').click();
+  // Its bed has its middle at 0, 0: the part is arranged anew, and again with each step.
+  const middle = page.getByLabel('Middle along X, mm');
+  await expect(middle).toHaveValue('110');
+  await printer.selectOption({ label: 'generic Delta with a round bed' });
+  await expect(middle).toHaveValue('0');
+  await undo.click();
+  await expect(middle).toHaveValue('110');
+  await expect(undo).toHaveAttribute('aria-disabled', 'true');
+  await redo.click();
+  await expect(middle).toHaveValue('0');
+  await expect(printer).toHaveValue('delta');
+  await expect(redo).toHaveAttribute('aria-disabled', 'true');
+});
+
 test('settings and parts are there again at the next visit', async ({ page }) => {
   await opened(page);
   await openFile(page, cube);

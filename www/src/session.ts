@@ -53,7 +53,8 @@ export class Session {
       const now = groundOf(changes);
       if (now === ground) return;
       ground = now;
-      if (store.state.arranged) void this.arrange();
+      // That follows from the settings: it is undone with them.
+      if (store.state.arranged) void this.#edit(this.#arrangement, 'follows');
     });
   }
 
@@ -275,8 +276,10 @@ export class Session {
 
   /** Stands all parts side by side. */
   async arrange(): Promise<void> {
-    await this.#edit(async ({ parts }) => ({ parts: await this.#arranged(parts) }));
+    await this.#edit(this.#arrangement);
   }
+
+  #arrangement = async ({ parts }: State): Promise<Partial<State>> => ({ parts: await this.#arranged(parts) });
 
   undo(): void {
     const { state } = this.#store;
@@ -458,12 +461,17 @@ export class Session {
     return { job: { kind: 'done' }, result: { gcode, report, sliced: report, settings, changes, parts }, layer };
   }
 
-  /** Runs a change of the parts after those before it; what it cannot do is said beside the parts. */
-  #edit(change: (state: State) => Promise<Partial<State>>): Promise<void> {
+  /**
+   * Runs a change of the parts after those before it; what it cannot do is said beside the parts. One that follows
+   * from another is no step of its own to be undone.
+   */
+  #edit(change: (state: State) => Promise<Partial<State>>, kind: 'step' | 'follows' = 'step'): Promise<void> {
     const edit = async (): Promise<void> => {
       if (this.#store.state.frame === 'locked') return;
       try {
-        this.#store.update({ ...(await change(this.#store.state)), trouble: undefined });
+        const changed = { ...(await change(this.#store.state)), trouble: undefined };
+        const { history } = this.#store.state;
+        this.#store.update(kind === 'step' ? changed : { ...changed, history });
       } catch (error) {
         this.#store.update({ trouble: problemOf(error) });
       }

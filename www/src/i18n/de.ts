@@ -197,6 +197,7 @@ export const de: Words = {
     ofModels: (names: string) =>
       `Einstellungen einzelner Modelle wurden ausgelassen (${names}): Teil wählen und dort einstellen.`,
     imported: (name: string, count: number) => `${name}: ${count} Einstellungen übernommen.`,
+    notTaken: 'Was geändert oder ausgelassen wurde',
     unknown: (names: string) => `Hier unbekannt: ${names}`,
     usb: {
       ok: 'Druckt über USB.',

@@ -200,6 +200,7 @@ export const en = {
     ofModels: (names: string) =>
       `Settings of single models were left out (${names}): choose the part and give it its own.`,
     imported: (name: string, count: number) => `${name}: ${count} settings taken over.`,
+    notTaken: 'What was changed or left out',
     unknown: (names: string) => `Not known here: ${names}`,
     usb: {
       ok: 'Prints over USB.',

@@ -194,6 +194,7 @@ export const zh: Words = {
     none: { printer: '选择打印机', material: '选择材料', quality: '按当前设置' },
     ofModels: (names: string) => `未导入单个模型的设置（${names}）：请选择零件后单独设置。`,
     imported: (name: string, count: number) => `${name}：已采用 ${count} 项设置。`,
+    notTaken: '更改或未采用的内容',
     unknown: (names: string) => `未知的设置：${names}`,
     usb: {
       ok: '支持 USB 打印。',

@@ -31,9 +31,17 @@ export class ProfileChooser extends Part {
         <h2 id="profiles-heading">${t.profiles.heading}</h2>
         <div class="fields">${this.#select('printer')} ${this.#select('material')} ${this.#select('quality')}</div>
         ${this.#usb()}
-        <div role="status">${this.notes.map((note) => html`<p class="remark">${note}</p>`)}</div>
+        <div role="status">${this.#notes()}</div>
       </section>
     `;
+  }
+
+  /** What came of an import; how each value fared can be long. */
+  #notes(): TemplateResult | typeof nothing {
+    const [first, ...rest] = this.notes.map((note) => html`<p class="remark">${note}</p>`);
+    if (first === undefined) return nothing;
+    if (rest.length === 0) return first;
+    return html`${first}<details><summary>${t.profiles.notTaken}</summary>${rest}</details>`;
   }
 
   #select(kind: Kind): TemplateResult {
