@@ -21,14 +21,17 @@ export type TimeUnits = readonly [h: string, min: string, s: string];
 export function formats(locale: string, [h, min, s]: TimeUnits): Formats {
   const number = (value: number, digits: number): string =>
     new Intl.NumberFormat(locale, { maximumFractionDigits: digits }).format(value);
+  // What is there is not told as 0.
+  const amount = (value: number, digits: number): string =>
+    value > 0 && value < 0.5 * 10 ** -digits ? `< ${number(10 ** -digits, digits)}` : number(value, digits);
   const twoDigits = new Intl.NumberFormat(locale, { minimumFractionDigits: 2, maximumFractionDigits: 2 });
   return {
     number,
     range: (low, high, digits) => [...new Set([number(low, digits), number(high, digits)])].join('–'),
     size: (size) => `${size.map((length) => number(length, 1)).join(' × ')} mm`,
-    volume: (mm3) => `${number(mm3 / 1000, 1)} cm³`,
-    metres: (mm) => `${number(mm / 1000, 2)} m`,
-    grams: (g) => `${number(g, 1)} g`,
+    volume: (mm3) => `${amount(mm3 / 1000, 1)} cm³`,
+    metres: (mm) => `${amount(mm / 1000, 2)} m`,
+    grams: (g) => `${amount(g, 1)} g`,
     money: (amount) => twoDigits.format(amount),
     duration: (seconds) => {
       const minutes = Math.round(seconds / 60);

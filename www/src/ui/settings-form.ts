@@ -174,7 +174,7 @@ export class SettingsForm extends Part {
   #row(field: Field, where: string): TemplateResult {
     const id = this.own === undefined ? `${where}-${field.path}` : `own-${where}-${field.path}`;
     const changed = field.path in this.changes;
-    return html`<div class="field ${changed ? 'changed' : ''} ${field.kind} ${field.path === this.pointed ? 'pointed' : ''}">
+    return html`<div class="field ${changed ? 'changed' : ''} ${field.kind === 'text' ? 'text' : ''} ${field.path === this.pointed ? 'pointed' : ''}">
       <label for=${id}>${labelOf(field, spoken())}</label>
       ${this.#control(field, id)}
       <span class="unit">${'unit' in field ? t.settings.unit(field.unit) : ''}</span>
