@@ -44,10 +44,11 @@ pub mod polygon;
 #[cfg(feature = "slicer")]
 pub mod region;
 #[cfg(feature = "slicer")]
+mod sets;
+#[cfg(feature = "slicer")]
 pub mod settings;
 #[cfg(feature = "slicer")]
 pub mod slice;
-#[cfg(feature = "slicer")]
 mod sort;
 #[cfg(feature = "slicer")]
 pub mod support;

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-/// What every module but `printer` may name with `crate::`: the macros that declare options, sorting.
-const EVERYWHERE: &[&str] = &["options", "words", "sort"];
+/// What every module but `printer` may name with `crate::`: the macros that declare options, sets, sorting.
+const EVERYWHERE: &[&str] = &["options", "words", "sets", "sort"];
 
 /// The stages in the order in which data flows.
 const STAGES: &[&str] =
@@ -16,6 +16,7 @@ const STAGES: &[&str] =
 /// Module -> further modules it may name.
 const MAY_USE: &[(&str, &[&[&str]])] = &[
     ("options", &[]),
+    ("sets", &[]),
     ("sort", &[]),
     ("polygon", &[]),
     ("mesh", &[]),

@@ -4,9 +4,10 @@
 //! without area go, their neighbours closing the seam; triangles are turned to agree with their
 //! neighbours; bodies that are inside out are turned ([`turn`](super::turn)). Holes are not filled.
 
-use super::topology::{Beyond, Patches, Sets, Topology, end, start};
+use super::topology::{Beyond, Patches, Topology, end, start};
 use super::turn::{self, Turned};
 use super::{Mesh, weld};
+use crate::sets::Sets;
 use crate::sort::StableSort;
 use glam::Vec3;
 use std::collections::HashMap;
@@ -255,7 +256,7 @@ pub(super) struct Bodies {
 /// A patch is a body, unless it ends at edges with several triangles and needs other patches there
 /// to be closed: then these patches are one body. Solids that merely touch in an edge stay apart.
 fn bodies(mesh: &Mesh, topology: &Topology, patches: &Patches) -> Bodies {
-    let mut sets = Sets::new(patches.count);
+    let mut sets = Sets::new(patches.count as usize);
     for edge in topology.crowded_edges() {
         let mut ends: Vec<(u32, i32)> =
             edge.iter().map(|&h| (patch_of(patches, h), direction(mesh, patches, h))).collect();
@@ -264,7 +265,7 @@ fn bodies(mesh: &Mesh, topology: &Topology, patches: &Patches) -> Bodies {
             ends.chunk_by(|a, b| a.0 == b.0).filter(|same| same.iter().map(|e| e.1).sum::<i32>() != 0);
         let needy: Vec<u32> = needy.map(|same| same[0].0).collect();
         for pair in needy.windows(2) {
-            sets.unite(pair[0], pair[1]);
+            sets.join(pair[0] as usize, pair[1] as usize);
         }
     }
     let (numbers, count) = sets.numbers();
@@ -273,10 +274,10 @@ fn bodies(mesh: &Mesh, topology: &Topology, patches: &Patches) -> Bodies {
 
 /// Parts of the mesh connected through any edge.
 fn shell_count(topology: &Topology, patches: &Patches) -> usize {
-    let mut sets = Sets::new(patches.count);
+    let mut sets = Sets::new(patches.count as usize);
     for edge in topology.crowded_edges() {
         for &h in edge {
-            sets.unite(patch_of(patches, edge[0]), patch_of(patches, h));
+            sets.join(patch_of(patches, edge[0]) as usize, patch_of(patches, h) as usize);
         }
     }
     sets.numbers().1

@@ -200,44 +200,6 @@ fn half_edges_by_smaller_vertex(mesh: &Mesh) -> (Vec<u32>, Vec<u64>) {
     (starts, ends)
 }
 
-/// Sets that are merged (union-find); each is known by its smallest member.
-pub(super) struct Sets(Vec<u32>);
-
-impl Sets {
-    /// `count` sets of one member.
-    pub(super) fn new(count: u32) -> Sets {
-        Sets((0..count).collect())
-    }
-
-    /// The smallest member of the set with `member`.
-    pub(super) fn find(&mut self, mut member: u32) -> u32 {
-        while self.0[member as usize] != member {
-            let parent = self.0[member as usize];
-            self.0[member as usize] = self.0[parent as usize];
-            member = parent;
-        }
-        member
-    }
-
-    /// Makes one set of two.
-    pub(super) fn unite(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.find(a), self.find(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
-
-    /// A number 0.. for the set of each member, in order of the smallest members, and their count.
-    pub(super) fn numbers(mut self) -> (Vec<u32>, usize) {
-        let mut numbers = vec![0; self.0.len()];
-        let mut count = 0;
-        for member in 0..self.0.len() as u32 {
-            let root = self.find(member);
-            numbers[member as usize] = if root == member { count } else { numbers[root as usize] };
-            count += u32::from(root == member);
-        }
-        (numbers, count as usize)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -306,13 +268,5 @@ mod tests {
         let topology = Topology::new(&m);
         assert_eq!(topology.open_edges(), 5);
         assert_eq!(topology.patches(&m).twisted, 1);
-    }
-
-    #[test]
-    fn sets_are_numbered_by_their_smallest_member() {
-        let mut sets = Sets::new(5);
-        sets.unite(4, 1);
-        sets.unite(3, 4);
-        assert_eq!(sets.numbers(), (vec![0, 1, 2, 1, 1], 3));
     }
 }

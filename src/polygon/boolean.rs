@@ -6,8 +6,8 @@ use std::cell::RefCell;
 
 use clipper2_rust::{ClipType, Clipper64, FillRule, Path64, Paths64, Point64};
 
+use super::groups::groups_of;
 use super::measure::Bounds;
-use super::sets::groups_of;
 use super::{Contour, DVec2, GRID_PER_MM, PolygonSet, dvec2, grid_steps};
 
 /// A connected area smaller than this is a rounding artefact, mm2 (100 grid cells).

@@ -8,12 +8,12 @@
 
 pub mod boolean;
 pub mod grid;
+pub mod groups;
 pub mod hull;
 pub mod island;
 pub mod measure;
 pub mod offset;
 pub mod raycast;
-pub mod sets;
 pub mod simplify;
 #[cfg(test)]
 pub(crate) mod stars;

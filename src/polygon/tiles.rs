@@ -4,8 +4,8 @@
 use super::boolean::NOTHING_MM2;
 use super::island::Island;
 use super::measure::Bounds;
-use super::sets::Sets;
 use super::{Contour, DVec2, GRID_PER_MM, Polygon, PolygonSet, dvec2, grid_steps, snap};
+use crate::sets::Sets;
 
 /// Pieces of neighbouring tiles that touch along less than this, mm, do so by rounding: three grid steps.
 const TOUCH_MM: f64 = 3e-4;
@@ -93,10 +93,7 @@ impl Tiles {
                 Some(*end)
             }))
             .collect();
-        let mut sets = Sets::default();
-        (0..starts[pieces.len()]).for_each(|_| {
-            sets.add();
-        });
+        let mut sets = Sets::new(starts[pieces.len()]);
         for (tile, next, axis) in self.neighbours() {
             for (i, piece) in pieces[tile].iter().enumerate() {
                 for (j, other) in pieces[next].iter().enumerate() {
@@ -106,7 +103,7 @@ impl Tiles {
                 }
             }
         }
-        (0..starts[pieces.len()]).map(|i| sets.root(i)).collect()
+        sets.roots()
     }
 
     /// What of `area` lies in each tile, edges cut at the grid point nearest to the crossing.

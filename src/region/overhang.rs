@@ -4,9 +4,9 @@
 //! Deposition Orientation in FDM", equations (2) to (8). Plate supports share [`need`].
 
 use super::reach::Reach;
+use crate::polygon::groups::groups_of;
 use crate::polygon::island::{Island, inner_point};
 use crate::polygon::measure::Bounds;
-use crate::polygon::sets::groups_of;
 use crate::polygon::trig::tan;
 use crate::polygon::{Join, PolygonSet};
 

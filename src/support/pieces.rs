@@ -3,6 +3,7 @@
 use super::frame::Frame;
 use super::plates::Plate;
 use super::spans::{self, Span};
+use crate::sets::Sets;
 use crate::slice::Axis;
 use crate::sort::StableSort;
 
@@ -32,7 +33,7 @@ pub(super) struct Tower {
     pub(super) span: Span,
 }
 
-/// A bead in the union-find.
+/// A bead among all.
 #[derive(Clone, Copy)]
 struct Node {
     plate: u32,
@@ -44,19 +45,19 @@ struct Node {
 /// Drops what is short or stands on nothing, and counts the rest.
 pub(super) fn sort_out(frame: &Frame, plates: &mut [Plate]) -> Sorted {
     let nodes = nodes_of(plates);
-    let parent = connect(frame, plates, &nodes);
+    let first_of = connect(frame, plates, &nodes);
     let mut pieces = vec![Piece::default(); nodes.len()];
     for (i, node) in nodes.iter().enumerate() {
-        pieces[parent[i] as usize].add(frame, &plates[node.plate as usize], node);
+        pieces[first_of[i]].add(frame, &plates[node.plate as usize], node);
     }
     let keeps = |p: &Piece| p.stands && (p.length + frame.width >= SHORT_MM || p.is_added);
     for (i, node) in nodes.iter().enumerate() {
-        if !keeps(&pieces[parent[i] as usize]) {
+        if !keeps(&pieces[first_of[i]]) {
             let line = &mut plates[node.plate as usize].lines[node.line as usize];
             line.beads[node.layer as usize].retain(|s| *s != node.span);
         }
     }
-    let roots = (0..nodes.len()).filter(|&i| parent[i] as usize == i).map(|i| &pieces[i]);
+    let roots = (0..nodes.len()).filter(|&i| first_of[i] == i).map(|i| &pieces[i]);
     let mut sorted = Sorted::default();
     for piece in roots {
         if !keeps(piece) {
@@ -81,15 +82,15 @@ pub(super) struct BedBead {
     /// Place of its plate, mm.
     pub(super) at: f64,
     pub(super) span: Span,
-    pub(super) piece: u32,
+    pub(super) piece: usize,
 }
 
 /// The beads of the lowest layer, piece by number.
 pub(super) fn on_bed(frame: &Frame, plates: &[Plate]) -> Vec<BedBead> {
     let nodes = nodes_of(plates);
-    let parent = connect(frame, plates, &nodes);
-    let on_bed = nodes.iter().zip(&parent).filter(|(node, _)| node.layer == 0);
-    let bead = |(node, &piece): (&Node, &u32)| {
+    let first_of = connect(frame, plates, &nodes);
+    let on_bed = nodes.iter().zip(&first_of).filter(|(node, _)| node.layer == 0);
+    let bead = |(node, &piece): (&Node, &usize)| {
         let plate = &plates[node.plate as usize];
         BedBead { axis: plate.axis, at: plate.at, span: node.span, piece }
     };
@@ -152,19 +153,19 @@ fn nodes_of(plates: &[Plate]) -> Vec<Node> {
     nodes
 }
 
-/// Union-find: the root of each node, the smallest of its piece.
-fn connect(frame: &Frame, plates: &[Plate], nodes: &[Node]) -> Vec<u32> {
-    let mut parent: Vec<u32> = (0..nodes.len() as u32).collect();
+/// For each node the first one of its piece.
+fn connect(frame: &Frame, plates: &[Plate], nodes: &[Node]) -> Vec<usize> {
+    let mut sets = Sets::new(nodes.len());
     let first = first_nodes(plates);
-    let id = |plate: usize, line: usize, layer: usize, place: usize| first[plate][line][layer] + place as u32;
+    let id = |plate: usize, line: usize, layer: usize, place: usize| first[plate][line][layer] + place;
     for (p, plate) in plates.iter().enumerate() {
         for (l, line) in plate.lines.iter().enumerate() {
             for (k, beads) in line.beads.iter().enumerate() {
                 for (i, &span) in beads.iter().enumerate() {
                     let above = line.beads.get(k + 1).map_or(&[][..], Vec::as_slice);
-                    link_met(&mut parent, id(p, l, k, i), span, above, id(p, l, k, 0) + beads.len() as u32);
+                    join_met(&mut sets, id(p, l, k, i), span, above, id(p, l, k, 0) + beads.len());
                     if let Some(beside) = plate.lines.get(l + 1) {
-                        link_met(&mut parent, id(p, l, k, i), span, &beside.beads[k], id(p, l + 1, k, 0));
+                        join_met(&mut sets, id(p, l, k, i), span, &beside.beads[k], id(p, l + 1, k, 0));
                     }
                 }
             }
@@ -172,21 +173,21 @@ fn connect(frame: &Frame, plates: &[Plate], nodes: &[Node]) -> Vec<u32> {
     }
     for k in 0..frame.layers.len() {
         each_crossing(frame, plates, k, |[p, l, i], [q, m, j]| {
-            link(&mut parent, id(p, l, k, i), id(q, m, k, j))
+            sets.join(id(p, l, k, i), id(q, m, k, j));
         });
     }
-    (0..nodes.len() as u32).map(|i| root(&mut parent, i)).collect()
+    sets.roots()
 }
 
 /// The number of the first bead of each plate, line and layer.
-fn first_nodes(plates: &[Plate]) -> Vec<Vec<Vec<u32>>> {
+fn first_nodes(plates: &[Plate]) -> Vec<Vec<Vec<usize>>> {
     let mut next = 0;
     let mut number = |beads: &Vec<Span>| {
         let first = next;
-        next += beads.len() as u32;
+        next += beads.len();
         first
     };
-    let mut of_plate = |plate: &Plate| -> Vec<Vec<u32>> {
+    let mut of_plate = |plate: &Plate| -> Vec<Vec<usize>> {
         plate.lines.iter().map(|line| line.beads.iter().map(&mut number).collect()).collect()
     };
     plates.iter().map(&mut of_plate).collect()
@@ -222,23 +223,10 @@ fn each_crossing(frame: &Frame, plates: &[Plate], k: usize, mut visit: impl FnMu
     }
 }
 
-fn link_met(parent: &mut [u32], node: u32, span: Span, others: &[Span], first: u32) {
+fn join_met(sets: &mut Sets, node: usize, span: Span, others: &[Span], first: usize) {
     for (other, id) in others.iter().zip(first..) {
         if spans::meet(span, *other, 0.0) {
-            link(parent, node, id);
+            sets.join(node, id);
         }
     }
-}
-
-pub(super) fn root(parent: &mut [u32], mut node: u32) -> u32 {
-    while parent[node as usize] != node {
-        parent[node as usize] = parent[parent[node as usize] as usize];
-        node = parent[node as usize];
-    }
-    node
-}
-
-pub(super) fn link(parent: &mut [u32], a: u32, b: u32) {
-    let (a, b) = (root(parent, a), root(parent, b));
-    parent[a.max(b) as usize] = a.min(b);
 }

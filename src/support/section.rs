@@ -5,6 +5,7 @@ use super::plane::{Edge, PlaneSection, Zone};
 use crate::mesh::Mesh;
 use crate::polygon::trig::sin_cos;
 use crate::polygon::{DVec2, dvec2};
+use crate::sets::Sets;
 use crate::slice::chain::NO_FACET;
 use crate::slice::{Axis, Gap, Loop, slice_loops};
 
@@ -52,26 +53,18 @@ pub(super) fn downward(mesh: &Mesh, triangle: usize) -> f64 {
 
 /// Facets of shells that enclose nothing but air: their volume is negative. Empty without any.
 fn cavities(mesh: &Mesh) -> Vec<bool> {
-    let mut parent: Vec<u32> = (0..mesh.vertices.len() as u32).collect();
-    fn root(parent: &mut [u32], mut v: u32) -> u32 {
-        while parent[v as usize] != v {
-            parent[v as usize] = parent[parent[v as usize] as usize];
-            v = parent[v as usize];
-        }
-        v
-    }
+    let mut sets = Sets::new(mesh.vertices.len());
     for &[a, b, c] in &mesh.triangles {
-        let [a, b, c] = [a, b, c].map(|v| root(&mut parent, v));
-        let first = a.min(b).min(c);
-        [a, b, c].into_iter().for_each(|v| parent[v as usize] = first);
+        sets.join(a as usize, b as usize);
+        sets.join(b as usize, c as usize);
     }
-    let shells: Vec<u32> = mesh.triangles.iter().map(|t| root(&mut parent, t[0])).collect();
+    let shells: Vec<usize> = mesh.triangles.iter().map(|t| sets.root(t[0] as usize)).collect();
     let mut volume = vec![0.0; mesh.vertices.len()];
     for (t, &shell) in shells.iter().enumerate() {
         let [a, b, c] = mesh.corners(t).map(|v| v.as_dvec3());
-        volume[shell as usize] += a.dot(b.cross(c));
+        volume[shell] += a.dot(b.cross(c));
     }
-    let found: Vec<bool> = shells.iter().map(|&s| volume[s as usize] < 0.0).collect();
+    let found: Vec<bool> = shells.iter().map(|&s| volume[s] < 0.0).collect();
     if found.contains(&true) { found } else { Vec::new() }
 }
 

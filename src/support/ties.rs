@@ -7,6 +7,7 @@ use super::pieces::{self, BedBead};
 use super::plates::{self, Plate, lines_at};
 use super::spans::{self, Span};
 use crate::polygon::PolygonSet;
+use crate::sets::Sets;
 use crate::slice::Axis;
 use crate::sort::StableSort;
 
@@ -19,7 +20,7 @@ struct Tie {
     axis: Axis,
     at: f64,
     span: Span,
-    pieces: [u32; 2],
+    pieces: [usize; 2],
 }
 
 /// Joins pieces by the shortest walls that are free to stand, as long as a wall joins two that no
@@ -33,12 +34,12 @@ pub(super) fn join(job: &Job, plates: &mut Vec<Plate>) {
         let by_place = key(a).iter().zip(key(b)).map(|(a, b)| a.total_cmp(&b)).find(|o| o.is_ne());
         by_place.unwrap_or((a.axis == Axis::Y).cmp(&(b.axis == Axis::Y)))
     });
-    let mut parent: Vec<u32> = (0..beads.iter().map(|b| b.piece + 1).max().unwrap_or(0)).collect();
+    let mut sets = Sets::new(beads.iter().map(|b| b.piece + 1).max().unwrap_or(0));
     let mut changed = Vec::new();
     for tie in ties {
-        let [a, b] = tie.pieces.map(|p| pieces::root(&mut parent, p));
+        let [a, b] = tie.pieces.map(|p| sets.root(p));
         if a != b && is_free(job, &tie) {
-            pieces::link(&mut parent, a, b);
+            sets.join(a, b);
             changed.push(build(job, &tie, plates));
         }
     }

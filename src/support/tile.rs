@@ -5,10 +5,10 @@ use std::cell::OnceCell;
 use crate::polygon::grid::{EdgeGrid, do_cross};
 use crate::polygon::island::{inner_point, inner_point_of};
 use crate::polygon::measure::Bounds;
-use crate::polygon::sets::Sets;
 use crate::polygon::strips::Strips;
 use crate::polygon::tiles::{Piece, pieces_of};
 use crate::polygon::{Contour, DVec2, Polygon, PolygonSet, dvec2};
+use crate::sets::Sets;
 
 /// Slits and slivers of a support region that are thinner than this, mm, are rounding artefacts of
 /// borders that ran along each other: three grid steps.
@@ -214,7 +214,9 @@ impl Tile {
     /// Components that do not meet A_k, and what is new beside them, become one.
     fn grow(&mut self, parts: Vec<Part>, new: Vec<Part>, jag: f64, sets: &mut Sets) {
         let node = parts.first().map_or_else(|| sets.add(), |first| first.node);
-        parts.iter().for_each(|part| sets.join(node, part.node));
+        for part in &parts {
+            sets.join(node, part.node);
+        }
         let Some(mut whole) = parts.into_iter().chain(new).reduce(|mut whole, further| {
             whole.absorb(further);
             whole
@@ -333,10 +335,7 @@ impl Held {
 
 /// Groups of what touches. The pieces reach over the slits to the components they touch.
 fn group(parts: Vec<Part>, meets: &[bool], new: Vec<Piece>, bounds: Bounds) -> Vec<Group> {
-    let mut sets = Sets::default();
-    (0..parts.len() + new.len()).for_each(|_| {
-        sets.add();
-    });
+    let mut sets = Sets::new(parts.len() + new.len());
     let mut reaching = Vec::with_capacity(new.len());
     for (i, piece) in new.into_iter().enumerate() {
         let mut new = Part::new(piece, 0);

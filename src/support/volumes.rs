@@ -4,10 +4,10 @@
 //! region, both seen from above; layers are counted from the bed.
 
 use super::tile::{Part, Tile};
-use crate::polygon::sets::Sets;
 use crate::polygon::tiles::{Piece, Tiles};
 use crate::polygon::{DVec2, Polygon, PolygonSet};
 use crate::region::overhang;
+use crate::sets::Sets;
 
 /// What the descent needs to know about the print.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,6 +3,7 @@
 
 use crate::polygon::grid::EdgeGrid;
 use crate::polygon::{DVec2, PolygonSet};
+use crate::sets::Sets;
 use crate::sort::StableSort;
 
 /// A place on the border.
@@ -111,7 +112,7 @@ impl<'a> Border<'a> {
     /// by two, on the other side one farther, because there the first pair is one line already.
     pub(super) fn join(&self, pieces: Vec<Piece>, longest: f64) -> Vec<Vec<DVec2>> {
         let mut joints = vec![None; 2 * pieces.len()];
-        let mut lines = Lines::single(pieces.len());
+        let mut lines = Sets::new(pieces.len());
         for ring in self.ends_by_contour(&pieces) {
             let count = ring.len();
             for i in 0..count {
@@ -119,7 +120,7 @@ impl<'a> Border<'a> {
                 let free = |end: usize| joints[end].is_none();
                 let places = [from, to].map(|end: usize| pieces[end / 2].ends[end % 2]);
                 let near = from != to && self.way(places[0], places[1]) <= longest;
-                if near && free(from) && free(to) && lines.unite(from / 2, to / 2) {
+                if near && free(from) && free(to) && lines.join(from / 2, to / 2) {
                     joints[from] = Some(Joint { to, forward: true });
                     joints[to] = Some(Joint { to: from, forward: false });
                 }
@@ -190,28 +191,4 @@ struct Joint {
     to: usize,
     /// Whether in the contour's direction.
     forward: bool,
-}
-
-/// Which pieces hang together, as a forest: each points to another one of its line or to itself.
-struct Lines(Vec<usize>);
-
-impl Lines {
-    fn single(count: usize) -> Lines {
-        Lines((0..count).collect())
-    }
-
-    fn root(&mut self, mut piece: usize) -> usize {
-        while self.0[piece] != piece {
-            self.0[piece] = self.0[self.0[piece]];
-            piece = self.0[piece];
-        }
-        piece
-    }
-
-    /// Makes one line of two; false if they were one already.
-    fn unite(&mut self, a: usize, b: usize) -> bool {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a] = b;
-        a != b
-    }
 }

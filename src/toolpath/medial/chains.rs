@@ -2,6 +2,7 @@
 
 use super::axis::{Axis, Branch, Node, Sample};
 use crate::polygon::DVec2;
+use crate::sets::Sets;
 use crate::sort::StableSort;
 
 /// A branch that ends at a corner is a spur when it reaches less than this far out of the circle at
@@ -235,22 +236,14 @@ fn contracted(nodes: &[Node], branches: Vec<Branch>) -> Vec<Branch> {
         limit > 0.0 && length(&b.line) <= limit
     };
     let (links, mut rest): (Vec<Branch>, Vec<Branch>) = branches.into_iter().partition(is_link);
-    let mut root: Vec<u32> = (0..nodes.len() as u32).collect();
+    let mut sets = Sets::new(nodes.len());
     for [m, n] in links.iter().filter_map(|b| b.ends) {
-        let (a, b) = (find(&root, m), find(&root, n));
-        root[a.max(b) as usize] = a.min(b);
+        sets.join(m as usize, n as usize);
     }
     for branch in &mut rest {
-        branch.ends = branch.ends.map(|ends| ends.map(|n| find(&root, n)));
+        branch.ends = branch.ends.map(|ends| ends.map(|n| sets.root(n as usize) as u32));
     }
     rest
-}
-
-fn find(root: &[u32], mut node: u32) -> u32 {
-    while root[node as usize] != node {
-        node = root[node as usize];
-    }
-    node
 }
 
 /// The two halves at a node that make the straightest and longest line.

@@ -1,42 +1,14 @@
-//! Which things belong together.
+//! Boxes that hang together.
 
 use super::measure::Bounds;
+use crate::sets::Sets;
 use crate::sort::StableSort;
-
-/// Union-find over numbered things.
-#[derive(Debug, Default)]
-pub struct Sets {
-    parent: Vec<usize>,
-}
-
-impl Sets {
-    /// A further thing, alone in its set.
-    pub fn add(&mut self) -> usize {
-        self.parent.push(self.parent.len());
-        self.parent.len() - 1
-    }
-
-    /// The first thing of the set.
-    pub fn root(&mut self, mut node: usize) -> usize {
-        while self.parent[node] != node {
-            self.parent[node] = self.parent[self.parent[node]];
-            node = self.parent[node];
-        }
-        node
-    }
-
-    /// Makes the sets of `a` and `b` one.
-    pub fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.parent[a.max(b)] = a.min(b);
-    }
-}
 
 /// Groups of boxes that hang together, two of them where they are within `margin` mm of each other. Groups are
 /// ordered by their first box, and so are the boxes in them.
 pub fn groups_of(boxes: &[Bounds], margin: f64) -> Vec<Vec<usize>> {
-    let mut sets = Sets::default();
-    let mut from_left: Vec<usize> = boxes.iter().map(|_| sets.add()).collect();
+    let mut sets = Sets::new(boxes.len());
+    let mut from_left: Vec<usize> = (0..boxes.len()).collect();
     from_left.stable_sort_by(|&a, &b| boxes[a].min.x.total_cmp(&boxes[b].min.x));
     for (k, &a) in from_left.iter().enumerate() {
         let end = boxes[a].max.x + margin;
