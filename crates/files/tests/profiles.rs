@@ -54,6 +54,21 @@ fn assert_settings(found: &Imported, expected: Value) {
 }
 
 #[test]
+fn widths_that_prusaslicer_chooses_follow_the_nozzle() {
+    let text = "nozzle_diameter = 0.6\nextrusion_width = 0\nperimeter_extrusion_width = 0\n\
+                support_material_extrusion_width = 0\nlayer_height = 0.3\n";
+    let found = import(text.as_bytes()).expect("a profile");
+    assert_settings(
+        &found,
+        json!({
+            "printer": { "nozzle_diameter": 0.6 }, "layers": { "height": 0.3 },
+            "walls": { "width": 0.675 }, "support": { "line_width": 0.6 }
+        }),
+    );
+    assert_eq!(why(&found, "perimeter_extrusion_width"), "chosen there: 1.125 times the nozzle");
+}
+
+#[test]
 fn no_limit_of_the_flow_stays_none() {
     let found = import(b"layer_height = 0.2\nperimeters = 2\nfilament_max_volumetric_speed = 0\n")
         .expect("a profile");

@@ -6,7 +6,7 @@ use super::code::Placeholders;
 use super::table::{
     FanNames, Relative, Row, Turn, Values, brim_side, first_of, leave_rest, number, take_accelerations,
     take_all, take_bed, take_bed_only, take_fan, take_flow_limit, take_supports, take_threshold,
-    take_thumbnails, take_width,
+    take_thumbnails, take_width, thousandths,
 };
 use super::{Collector, Imported, comment_pairs};
 
@@ -189,6 +189,7 @@ pub(super) fn import(mut found: Values) -> Imported {
     let mut out = Collector::new();
     let brim_width = found.get("brim_width").and_then(|text| number(first_of(text)));
     take_width("perimeter_extrusion_width", "extrusion_width", &mut found, &mut out);
+    take_automatic_widths(&mut found, &mut out);
     take_fan(&FAN, &mut found, &mut out);
     take_flow_limit(&mut found, &mut out);
     take_all(ROWS, RELATIVE, &mut found, &mut out);
@@ -211,6 +212,27 @@ pub(super) fn import(mut found: Values) -> Imported {
     take_adhesion(brim_width, &mut found, &mut out);
     leave_rest(found, ASIDE, &mut out);
     out.finish("prusaslicer")
+}
+
+/// Widths of 0 are derived from the nozzle there: (name, path, widths of the nozzle).
+const AUTOMATIC: [(&str, &str, f64); 2] = [
+    ("perimeter_extrusion_width", "walls.width", 1.125),
+    ("support_material_extrusion_width", "support.line_width", 1.0),
+];
+
+/// Takes over widths of 0 as what they come to, if the profile knows the nozzle.
+fn take_automatic_widths(found: &mut Values, out: &mut Collector) {
+    let number_of = |key: &str, found: &Values| found.get(key).and_then(|text| number(first_of(text)));
+    let Some(nozzle) = number_of("nozzle_diameter", found) else { return };
+    for (key, path, share) in AUTOMATIC {
+        if number_of(key, found) != Some(0.0) {
+            continue;
+        }
+        if let Some(text) = found.remove(key) {
+            let why = format!("chosen there: {share} times the nozzle");
+            out.change(key, &text, path, Value::from(thousandths(share * nozzle)), &why);
+        }
+    }
 }
 
 /// One kind of base layer here; a raft goes before a brim, a brim before a skirt.

@@ -274,7 +274,7 @@ fn number_by_row(&(key, path, turn): &Row, text: &str, out: &mut Collector) {
 }
 
 /// Shares without the dust of binary fractions.
-fn thousandths(share: f64) -> f64 {
+pub(crate) fn thousandths(share: f64) -> f64 {
     (share * 1e6).round() / 1e6
 }
 
