@@ -35,8 +35,8 @@ const AIM: Miss = Miss { name: "", layers: None, covered: 0.99, short_of: 0.05, 
 /// What misses the aim: raised letters 0.4 mm high, too narrow for a wall there and back and too wide for
 /// one; the tip of a narrowing slot that parts two walls; a line of letters of 7 mm2.
 const NOT_YET: &[Miss] = &[
-    Miss { name: "overhang.stl", layers: Some(&[117, 118]), covered: 0.985, short_of: 0.1, ..AIM },
-    Miss { name: "overhang.stl", layers: Some(&[109, 114, 136, 141, 143, 156]), short_of: 0.12, ..AIM },
+    Miss { name: "overhang.stl", layers: Some(&[117, 118]), covered: 0.986, short_of: 0.1, ..AIM },
+    Miss { name: "overhang.stl", layers: Some(&[114, 143]), short_of: 0.12, ..AIM },
     Miss { name: "angle_block_mm.stl", layers: Some(&[90, 113]), short_of: 0.16, ..AIM },
     Miss { name: "bridge_test.stl", layers: Some(&[100]), covered: 0.984, past: 0.004, ..AIM },
 ];

@@ -78,6 +78,24 @@ const INNER_RESOLUTION: f64 = 0.02;
 /// place. With the usual width of 1.1 nozzles that one bead grows to twice the nozzle at most.
 const PAIR_FROM: f64 = 1.75;
 
+/// The like for teeth, which are too short for a bead of their own.
+const TOOTH_FROM: f64 = 1.5;
+
+/// Area between the lines of a tooth's two beads at most, in squares of a line width.
+const LARGEST_TOOTH: f64 = 0.5;
+
+/// Area under which what a layer's outer walls lack is corners' tips, mm2.
+const NO_TEETH: f64 = 0.03;
+
+/// The like for a single place, mm2.
+const SPECK: f64 = 0.003;
+
+/// A tooth that goes on as a thinner strip of more than this share of its area is left to a single bead.
+const MOST_BEYOND: f64 = 0.3;
+
+/// Areas closer than this touch, mm.
+const TOUCHING: f64 = 0.01;
+
 /// A bead between two loops is at least this wide, in line widths; the loops fill thinner strips.
 const MIDDLE_FROM: f64 = 0.5;
 
@@ -136,6 +154,7 @@ pub fn lay_walls(outline: &PolygonSet, bead: Bead, count: u32) -> Walls {
         if walls.inner.area() - roomy.area() >= NO_CLOSE_PLACES {
             let close = walls.inner.difference(&roomy);
             let centre = without_thin(&lines, strips.narrowest / 2.0);
+            let centre = if depth == 0 { with_teeth(centre, &lines, bead.width) } else { centre };
             let (thin, lost) = thin_places(&walls.inner, &close, &centre, to_centre);
             match depth {
                 0 => (walls.thin_outer, walls.lost) = (thin, lost),
@@ -174,6 +193,35 @@ fn without_thin(lines: &PolygonSet, radius: f64) -> PolygonSet {
         return core.offset(radius, SHARP).intersection(lines).simplified(SAME_LINE);
     }
     core.offset(radius, Join::WALL)
+}
+
+/// Adds what was cut off as too thin for two beads and is no longer than a bead is wide, such as the feet of
+/// raised letters: a wall runs there and back in less space than a bead of its own would need to begin.
+fn with_teeth(centre: PolygonSet, lines: &PolygonSet, width: f64) -> PolygonSet {
+    if lines.area() - centre.area() < NO_TEETH {
+        return centre;
+    }
+    let fine = without_thin(lines, (TOOTH_FROM - 1.0) / 2.0 * width);
+    let is_short = |tooth: &PolygonSet| (SPECK..LARGEST_TOOTH * width * width).contains(&tooth.area());
+    let found = fine.difference(&centre).islands().into_iter().map(Polygon::into_set).filter(is_short);
+    let found: Vec<PolygonSet> = found.collect();
+    if found.is_empty() {
+        return centre;
+    }
+    let thinner: Vec<PolygonSet> =
+        lines.difference(&fine).islands().into_iter().map(Polygon::into_set).collect();
+    let stands = |tooth: &PolygonSet| {
+        let grown = tooth.offset(TOUCHING, Join::WALL);
+        let touches = |other: &&PolygonSet| !grown.intersection(other).is_empty();
+        let beyond: f64 = thinner.iter().filter(touches).map(PolygonSet::area).sum();
+        touches(&&centre) && beyond < MOST_BEYOND * tooth.area()
+    };
+    let mut parts: Vec<PolygonSet> = found.into_iter().filter(stands).collect();
+    if parts.is_empty() {
+        return centre;
+    }
+    parts.push(centre);
+    PolygonSet::union_all(&parts).simplified(SAME_LINE)
 }
 
 /// Fills an area narrower than three beads with loops and what they leave between them: lines across it
@@ -262,6 +310,22 @@ mod tests {
         assert_eq!(walls.loops.len(), 1);
         let left = 1.1 - 0.45 - BEAD.spacing();
         assert!((walls.thin_inner.area() - left * (20.0 - 0.45 - BEAD.spacing())).abs() < 0.02);
+    }
+
+    /// 0.7 mm is too thin for two beads beside each other, 1.5 mm long for one of its own.
+    #[test]
+    fn a_wall_runs_around_a_short_tooth_and_not_around_a_long_one() {
+        let reaching = |length: f64| {
+            let tooth = PolygonSet::rectangle(dvec2(10.0, 4.0), dvec2(10.0 + length, 4.7));
+            let block = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(10.0, 10.0));
+            let walls = lay_walls(&PolygonSet::union_all(&[block, tooth]), BEAD, 1);
+            let points = walls.loops.iter().flat_map(|(_, path)| &path.points);
+            (points.map(|p| p.x).fold(f64::MIN, f64::max), walls.thin_outer.area())
+        };
+        let (reach, left) = reaching(0.35);
+        assert!((reach - (10.35 - 0.225)).abs() < 0.03 && left < 0.03, "{reach} {left}");
+        let (reach, left) = reaching(1.5);
+        assert!(reach < 10.0 && left > 0.9, "{reach} {left}");
     }
 
     #[test]
