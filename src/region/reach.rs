@@ -3,9 +3,10 @@
 
 use crate::polygon::grid::EdgeGrid;
 use crate::polygon::island::Island;
+use crate::polygon::measure::Bounds;
 use crate::polygon::simplify::squared_distance_to_segment;
 use crate::polygon::strips::Strips;
-use crate::polygon::{Contour, DVec2, Join, Polygon, PolygonSet};
+use crate::polygon::{Contour, DVec2, PolygonSet};
 
 /// By so much, mm, a point must lie nearer than allowed to be surely within: rounding to the grid may
 /// bring the grown border nearer by less.
@@ -45,24 +46,35 @@ impl<'a> Reach<'a> {
 
     /// Whether surely nothing of `area` lies outside the growth. Without a doubt only: false says nothing.
     ///
-    /// An area that reaches out does so with its border, or it covers a hole that the growth leaves.
+    /// An area that reaches out does so with its border, or it covers a pocket that the growth leaves.
     pub(super) fn holds(&self, area: &PolygonSet) -> bool {
-        self.holds_border(area.contours()) && self.covers_no_hole(area)
+        let Some(bounds) = area.bounds() else { return true };
+        let near = |&&(a, b): &&(DVec2, DVec2)| Bounds { min: a.min(b), max: a.max(b) }.is_near(bounds, 0.0);
+        // The other side of the edges of `below`.
+        let outward = self.edges.iter().filter(near).map(|&(a, b)| (b, a));
+        self.holds_border(area.contours()) && !self.has_pocket(outward, &Strips::new(area))
     }
 
     /// The same for one connected part.
     pub(super) fn holds_island(&self, island: &Island) -> bool {
-        let polygon = &island.polygon;
-        self.holds_border(polygon.contours())
-            && self.is_narrow(polygon)
-            && self.covers_no_hole(&polygon.clone().into_set())
+        let contours: Vec<Contour> = island.polygon.contours().cloned().collect();
+        let edges = contours.iter().flat_map(Contour::edges);
+        self.holds_border(&contours) && !self.has_pocket(edges, &Strips::of_contours(&contours))
     }
 
-    /// Whether the area is so small for the length of its border that it may be a strip along it: the border may
-    /// be near all around a wide bay whose mouth is narrow.
-    fn is_narrow(&self, polygon: &Polygon) -> bool {
-        let border: f64 = polygon.contours().map(Contour::length).sum();
-        polygon.area() <= border / 2.0 * self.step
+    /// Whether `area` may have a place to the left of these edges that the growth does not reach, though all of its
+    /// border is near: between a pin and its hole, in a bay with a narrow mouth.
+    ///
+    /// A circle of a step's radius that fits into such a place touches an edge; its middle, from whichever point
+    /// of the edge within half a step it is guessed, is no nearer than half a step to any edge.
+    fn has_pocket(&self, mut edges: impl Iterator<Item = (DVec2, DVec2)>, area: &Strips) -> bool {
+        edges.any(|(a, b)| {
+            let inward = (b - a).normalize_or_zero().perp() * self.step;
+            let samples = (a.distance(b) / self.step).ceil().max(1.0);
+            (0..samples as usize).map(|i| a.lerp(b, (i as f64 + 0.5) / samples) + inward).any(|p| {
+                area.contain(p) && self.grid.nearest_edge(p, self.step / 2.0).is_none() && !self.contains(p)
+            })
+        })
     }
 
     fn holds_border<'c>(&self, contours: impl IntoIterator<Item = &'c Contour>) -> bool {
@@ -118,32 +130,6 @@ impl<'a> Reach<'a> {
         self.holds_edge(from, middle, reach, halvings - 1) && self.holds_edge(middle, to, reach, halvings - 1)
     }
 
-    /// Whether no hole that stays open in the growth lies within `area`, whose border is in no such hole.
-    fn covers_no_hole(&self, area: &PolygonSet) -> bool {
-        let open = |hole: &&Contour| -hole.signed_area() > std::f64::consts::PI * self.step * self.step;
-        let Some(bounds) = area.bounds() else { return true };
-        let near = |hole: &&Contour| hole.bounds().is_some_and(|b| b.is_near(bounds, 0.0));
-        let mut holes = self
-            .below
-            .contours()
-            .iter()
-            .filter(|c| c.signed_area() < 0.0)
-            .filter(near)
-            .filter(open)
-            .peekable();
-        if holes.peek().is_none() {
-            return true;
-        }
-        let covered = Strips::new(area);
-        let limit = self.mitre_limit;
-        holes.all(|hole| {
-            // What stands in the hole leaves less of it open.
-            let empty = PolygonSet::canonical(vec![hole.reversed()]).difference(self.below);
-            let left = empty.offset(-self.step, Join::Mitre { limit });
-            !left.contours().iter().any(|c| covered.contain(c.points[0]))
-        })
-    }
-
     fn is_surely_outside(&self, p: DVec2) -> bool {
         let far = self.step + FARTHER_MM;
         self.grid.nearest_edge(p, far).is_none() && !self.may_be_in_mitre(p, far) && !self.contains(p)
@@ -178,8 +164,8 @@ impl<'a> Reach<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::polygon::dvec2;
     use crate::polygon::stars::hollow_star;
+    use crate::polygon::{Join, dvec2};
     use proptest::prelude::*;
 
     const LIMIT: f64 = 5.0;

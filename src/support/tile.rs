@@ -185,10 +185,11 @@ impl Tile {
 
     /// The pieces of an area cut along the tile's borders.
     fn pieces_without_double_edges(&self, area: &PolygonSet) -> Vec<Piece> {
-        if self.has_double_edges(area) {
-            return pieces_of(&PolygonSet::from_contours(area.contours().to_vec()), self.bounds);
-        }
-        pieces_of(area, self.bounds)
+        let area = match self.has_double_edges(area) {
+            true => PolygonSet::from_contours(area.contours().to_vec()),
+            false => area.clone(),
+        };
+        pieces_of(&without_slivers(area), self.bounds)
     }
 
     /// Whether the outline runs along one stretch of a border twice.
