@@ -91,14 +91,15 @@ impl Below {
         let n = path.points.len();
         let edges = if path.closed { n } else { n - 1 };
         let mut stretches: Vec<Stretch> = Vec::new();
-        let mut here = (path.points[0], path.width.at(0));
+        let mut here = Stop { at: path.points[0], width: path.width.at(0), is_corner: true };
         for i in 0..edges {
             let j = (i + 1) % n;
             let (a, b) = (path.points[i], path.points[j]);
             let width = |share: f64| path.width.at(i) + (path.width.at(j) - path.width.at(i)) * share;
-            let stops = inner_points(a, b).map(|(p, share)| (p, width(share))).chain([(b, path.width.at(j))]);
-            for stop in stops {
-                let step = self.step((here.0 + stop.0) / 2.0);
+            let inner =
+                inner_points(a, b).map(|(at, share)| Stop { at, width: width(share), is_corner: false });
+            for stop in inner.chain([Stop { at: b, width: path.width.at(j), is_corner: true }]) {
+                let step = self.step((here.at + stop.at) / 2.0);
                 extend(&mut stretches, here, stop, step);
                 here = stop;
             }
@@ -113,13 +114,22 @@ fn inner_points(a: DVec2, b: DVec2) -> impl Iterator<Item = (DVec2, f64)> {
     (1..count).map(move |i| i as f64 / count as f64).map(move |share| (a.lerp(b, share), share))
 }
 
-/// A stretch of a path on one step: points and widths.
-struct Stretch {
-    step: u8,
-    stops: Vec<(DVec2, f64)>,
+/// A point of a path where it is looked at.
+#[derive(Clone, Copy)]
+struct Stop {
+    at: DVec2,
+    width: f64,
+    /// A point of the path itself, not one within an edge.
+    is_corner: bool,
 }
 
-fn extend(stretches: &mut Vec<Stretch>, from: (DVec2, f64), to: (DVec2, f64), step: u8) {
+/// A stretch of a path on one step.
+struct Stretch {
+    step: u8,
+    stops: Vec<Stop>,
+}
+
+fn extend(stretches: &mut Vec<Stretch>, from: Stop, to: Stop, step: u8) {
     match stretches.last_mut() {
         Some(last) if last.step == step => last.stops.push(to),
         _ => stretches.push(Stretch { step, stops: vec![from, to] }),
@@ -142,7 +152,7 @@ fn merged(stretches: Vec<Stretch>) -> Vec<Stretch> {
 
 impl Stretch {
     fn length(&self) -> f64 {
-        self.stops.windows(2).map(|w| w[0].0.distance(w[1].0)).sum()
+        self.stops.windows(2).map(|w| w[0].at.distance(w[1].at)).sum()
     }
 
     fn mark(&self, path: Path) -> Path {
@@ -150,7 +160,9 @@ impl Stretch {
     }
 
     fn into_path(self, whole: &Path, varies: bool) -> Path {
-        let (points, widths): (Vec<DVec2>, Vec<f64>) = self.stops.iter().copied().unzip();
+        let last = self.stops.len() - 1;
+        let kept = self.stops.iter().enumerate().filter(|(i, stop)| stop.is_corner || *i == 0 || *i == last);
+        let (points, widths): (Vec<DVec2>, Vec<f64>) = kept.map(|(_, stop)| (stop.at, stop.width)).unzip();
         let width = if varies { Width::Varying(widths) } else { whole.width.clone() };
         let path = Path { role: whole.role, points, closed: false, width, hang: 0.0 };
         if self.step == 0 { path } else { self.mark(path) }
@@ -182,6 +194,8 @@ mod tests {
             assert_eq!(hanging.len(), 1, "{pieces:?}");
             assert_eq!(hanging[0].hang, hang);
             assert!((hanging[0].length() - 19.55).abs() < 1.7);
+            // Corners and ends only.
+            assert!(pieces.iter().all(|piece| piece.points.len() <= 4), "{pieces:?}");
             assert!(
                 (pieces.iter().map(Path::length).sum::<f64>() - 2.0 * (9.55 + over + 19.55)).abs() < 1e-9
             );
