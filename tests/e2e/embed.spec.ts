@@ -169,6 +169,23 @@ test('several on a page do not disturb each other, and one that is removed frees
   await expect.poll(() => page.workers().length).toBe(0);
 });
 
+test('a visitor who is at another step when the model comes stays there', async ({ page, example }) => {
+  let send = (): void => undefined;
+  const asked = new Promise<void>((resolve) => {
+    send = resolve;
+  });
+  await page.route('**/bracket.stl', async (route) => {
+    await asked;
+    await route.continue();
+  });
+  await page.goto(example.address);
+  const print = page.getByRole('tab', { name: 'Print', exact: true });
+  await print.click();
+  send();
+  await expect(page.getByText('bracket.stl is open.')).toBeAttached();
+  await expect(print).toHaveAttribute('aria-selected', 'true');
+});
+
 test('a print from another origin: its worker has the port, and the host hears when it begins and ends', async ({
   page,
   example,

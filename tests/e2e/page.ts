@@ -21,6 +21,8 @@ export const test = base.extend({
         console.error(`security policy: ${event.violatedDirective} ${event.blockedURI}`);
       });
     });
+    // Caught from the start: a chooser that comes up before it is asked for would be missed.
+    page.on('filechooser', () => undefined);
     await use(page);
     expect(complaints).toEqual([]);
   },

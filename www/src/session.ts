@@ -96,9 +96,13 @@ export class Session {
     if (isCurrent()) this.#store.update({ ...plan, trouble: model.problem });
   }
 
-  /** Opens models instead of those that were open, which don't come back. */
+  /**
+   * Opens models instead of those that were open, which don't come back. Whoever is at another step before the first
+   * ones are there stays at it.
+   */
   replace(sources: readonly ModelSource[]): Promise<void> {
-    return this.#open(sources, 'prepare');
+    const { model, step } = this.#store.state;
+    return this.#open(sources, model.kind === 'none' ? step : 'prepare');
   }
 
   async #open(sources: readonly ModelSource[], step: Step, kept?: Kept): Promise<void> {
