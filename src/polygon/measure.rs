@@ -51,6 +51,11 @@ impl Bounds {
     }
 }
 
+/// Number of vertices of all these contours.
+pub fn vertex_count(contours: &[Contour]) -> usize {
+    contours.iter().map(|c| c.points.len()).sum()
+}
+
 impl Contour {
     /// Enclosed area, mm2: positive counter-clockwise, negative clockwise.
     pub fn signed_area(&self) -> f64 {

@@ -145,7 +145,7 @@ impl PolygonSet {
 
     /// Number of vertices of all contours.
     pub fn vertex_count(&self) -> usize {
-        self.contours.iter().map(|c| c.points.len()).sum()
+        measure::vertex_count(&self.contours)
     }
 
     /// The connected parts, each with its holes, ordered by the outer contour's smallest point.

@@ -1,5 +1,6 @@
 //! Fewer points within a tolerance.
 
+use super::measure::vertex_count;
 use super::{Contour, DVec2, PolygonSet};
 
 impl PolygonSet {
@@ -10,7 +11,7 @@ impl PolygonSet {
     /// Neighbouring outlines may come to cross by up to the tolerance; the result is united again.
     pub fn simplified(&self, tolerance: f64) -> PolygonSet {
         let simpler: Vec<Contour> = self.contours().iter().map(|c| simplify_ring(c, tolerance)).collect();
-        let dropped = simpler.iter().map(|c| c.points.len()).sum::<usize>() < self.vertex_count();
+        let dropped = vertex_count(&simpler) < self.vertex_count();
         if dropped { PolygonSet::from_contours(simpler) } else { self.clone() }
     }
 }

@@ -1,6 +1,6 @@
 //! Many questions whether a point lies in one area.
 
-use super::measure::Bounds;
+use super::measure::{Bounds, vertex_count};
 use super::{Contour, DVec2, PolygonSet};
 
 /// The edges of an area sorted into level strips, for many questions whether a point is inside.
@@ -23,8 +23,7 @@ impl Strips {
     pub fn of_contours(contours: &[Contour]) -> Strips {
         let bounds = Bounds::of_points(contours.iter().flat_map(|c| &c.points));
         let (low, height) = bounds.map_or((0.0, 0.0), |b| (b.min.y, b.size().y));
-        let vertices: usize = contours.iter().map(|c| c.points.len()).sum();
-        let count = (vertices / 4).clamp(1, 512);
+        let count = (vertex_count(contours) / 4).clamp(1, 512);
         let mut strips = Strips {
             low,
             per_mm: count as f64 / height.max(1e-3),

@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 
 use crate::polygon::grid::{EdgeGrid, do_cross};
 use crate::polygon::island::{inner_point, inner_point_of};
-use crate::polygon::measure::Bounds;
+use crate::polygon::measure::{Bounds, vertex_count};
 use crate::polygon::strips::Strips;
 use crate::polygon::tiles::{Piece, pieces_of};
 use crate::polygon::{Contour, DVec2, Polygon, PolygonSet, dvec2};
@@ -71,7 +71,7 @@ impl Part {
         Part {
             area_mm2: piece.contours.iter().map(Contour::signed_area).sum(),
             united: piece.contours.len(),
-            united_vertices: vertices_of(&piece.contours),
+            united_vertices: vertex_count(&piece.contours),
             piece,
             node,
             inner: OnceCell::new(),
@@ -91,7 +91,7 @@ impl Part {
     }
 
     fn has_grown(&self) -> bool {
-        vertices_of(&self.piece.contours) > GROWN_TIMES * self.united_vertices + GROWN_BY
+        vertex_count(&self.piece.contours) > GROWN_TIMES * self.united_vertices + GROWN_BY
     }
 
     fn inner_point(&self) -> Option<DVec2> {
@@ -113,10 +113,6 @@ impl Part {
         if self.is_united() { self.set() } else { PolygonSet::from_contours(self.piece.contours.clone()) }
             .islands()
     }
-}
-
-fn vertices_of(contours: &[Contour]) -> usize {
-    contours.iter().map(|c| c.points.len()).sum()
 }
 
 impl Tile {
@@ -292,7 +288,7 @@ impl Tile {
         let is_near =
             |&&(a, b): &&(DVec2, DVec2)| Bounds { min: a.min(b), max: a.max(b) }.is_near(*bounds, 0.0);
         let near: Vec<(DVec2, DVec2)> = edges.iter().filter(is_near).copied().collect();
-        if near.len() * vertices_of(contours) > MOST_PAIRS {
+        if near.len() * vertex_count(contours) > MOST_PAIRS {
             return false;
         }
         let is_outside = |contour: &Contour| {
@@ -307,7 +303,7 @@ impl Tile {
     }
 
     fn is_on_border(&self, p: DVec2) -> bool {
-        p.cmpeq(self.bounds.min).any() || p.cmpeq(self.bounds.max).any()
+        (0..2).any(|axis| self.is_on_border_along(p, axis))
     }
 }
 
