@@ -22,6 +22,7 @@ use crate::toolpath::ironing::iron;
 use crate::toolpath::medial::{ThinFill, carried_to_walls, fill_thin};
 use crate::toolpath::overhang::mark_overhangs;
 use crate::toolpath::seam::{SeamLine, place_seams};
+use crate::toolpath::spots::fill_spots;
 use crate::toolpath::walls::{fill_narrow, lay_walls};
 use crate::toolpath::{LayerParts, LayerPaths, Way, order_layer};
 
@@ -535,6 +536,8 @@ fn lay_paths(
     let mut gaps = vec![(walls.thin_inner, bead.overlap())];
     gaps.extend(fills.fill_areas(regions, bridges, &mut parts));
     let fallbacks = fills.fill_thin_places(&walls.thin_outer, &outline, gaps, &mut parts);
+    let nozzle = settings.printer.nozzle_diameter;
+    fill_spots(&mut parts, &walls.close, &outline, &(0.5 * nozzle..=2.0 * nozzle));
     meta.warnings.extend(fallback_warning(&fallbacks, spec.index));
     meta.findings.extend(findings.thin_walls(&parts));
     meta.findings.extend(findings.lost_walls(&walls.lost));

@@ -52,13 +52,17 @@ impl Path {
 
     /// Area that the bead covers, mm2: length times width, round ends left out.
     pub fn area(&self) -> f64 {
-        let n = self.points.len();
-        let edges = if self.closed { n } else { n.saturating_sub(1) };
-        let of_edge = |i: usize| {
-            let next = (i + 1) % n;
+        let of_edge = |(i, next): (usize, usize)| {
             self.points[i].distance(self.points[next]) * (self.width.at(i) + self.width.at(next)) / 2.0
         };
-        (0..edges).map(of_edge).sum()
+        self.edges().map(of_edge).sum()
+    }
+
+    /// Places of the points at both ends of each edge, the closing edge included.
+    pub fn edges(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        let n = self.points.len();
+        let count = if self.closed { n } else { n.saturating_sub(1) };
+        (0..count).map(move |i| (i, (i + 1) % n))
     }
 
     /// The same line with a bead that is `by` mm wider everywhere.
@@ -106,10 +110,6 @@ impl Path {
 
     /// Length of the centre line, the closing edge included, mm.
     pub fn length(&self) -> f64 {
-        let open: f64 = self.points.windows(2).map(|w| w[0].distance(w[1])).sum();
-        match (self.closed, self.points.first(), self.points.last()) {
-            (true, Some(a), Some(b)) => open + a.distance(*b),
-            _ => open,
-        }
+        self.edges().map(|(i, next)| self.points[i].distance(self.points[next])).sum()
     }
 }

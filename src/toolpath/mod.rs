@@ -9,6 +9,7 @@ pub mod overhang;
 pub mod prime_tower;
 mod route;
 pub mod seam;
+pub mod spots;
 pub mod travel;
 pub mod walls;
 

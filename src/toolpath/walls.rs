@@ -55,6 +55,8 @@ pub struct Walls {
     pub thin_inner: PolygonSet,
     /// Places at the outline too thin for any bead, and hair-thin slivers along it.
     pub lost: PolygonSet,
+    /// Where loops changed their width or could not run.
+    pub close: Vec<Contour>,
     /// What lies inside the innermost wall, up to the border of its bead's cell.
     pub inner: PolygonSet,
 }
@@ -162,6 +164,7 @@ pub fn lay_walls(outline: &PolygonSet, bead: Bead, count: u32) -> Walls {
             }
             let fitted = fit::loops(centre, &close, FittedBead { bead, role, strips });
             walls.loops.extend(fitted.into_iter().map(|path| (depth, path)));
+            walls.close.extend(close.into_contours());
         } else {
             let contours = lines.into_contours().into_iter();
             walls.loops.extend(contours.map(|c| (depth, Path::closed(role, c.points, bead.width))));

@@ -2,7 +2,7 @@
 
 use super::axis::Sample;
 use super::border::Triangles;
-use super::chains::{Chain, End, SPUR_REACH, direction, length};
+use super::chains::{Chain, DIRECTION_AT, End, SPUR_REACH, direction, length};
 use super::{ThinBeads, ThinFill};
 use crate::polygon::{DVec2, by_x_then_y, simplify::closest_on_segment, snap};
 use crate::region::{Path, Role, Width};
@@ -13,6 +13,9 @@ const POSITION_TOLERANCE_MM: f64 = 0.01;
 /// Points whose width is within this share of the simplified line's are dropped.
 const WIDTH_TOLERANCE: f64 = 0.02;
 
+/// Share of both tolerances for beads that are seen.
+const SEEN: f64 = 0.3;
+
 /// A line of a compact area, shorter than this many radii, has no direction of its own.
 const NO_DIRECTION: f64 = 0.3;
 
@@ -22,6 +25,14 @@ const SHORTEST: f64 = 0.35;
 /// A line that meets another aslant goes on by this share of what its farther side has to go, times the
 /// cosine of the angle between them; its round end covers the rest.
 const SLANTED_REACH: f64 = 0.7;
+
+/// The ways over the last [`DIRECTION_AT`] radii and over half of that differ by less than this in a bent
+/// stroke; where they differ by more it has a corner.
+const MOST_BEND: f64 = 0.5;
+
+/// In a circle the two ways differ by a quarter of the bend; from the middle of the shorter one to the middle
+/// of what is added it bends by twice that.
+const BENDS_ON: f64 = 2.0;
 
 /// Length of the line of a stub that ends just beyond another bead, mm.
 const STUB_MM: f64 = 0.1;
@@ -75,7 +86,7 @@ fn ended(mut line: Vec<Sample>, ends: [End; 2], triangles: &Triangles, options: 
     for end in [ends[1], ends[0]] {
         if let End::Strip { tip } = end {
             cut_hook(&mut line, tip);
-            let outward = -direction(&line, true);
+            let outward = onward(&line);
             carry_to_border(&mut line, outward, triangles, options);
             fit_end(&mut line, triangles);
         }
@@ -89,6 +100,16 @@ fn ended(mut line: Vec<Sample>, ends: [End; 2], triangles: &Triangles, options: 
         line.reverse();
     }
     without_reversals(line)
+}
+
+/// The unit direction in which a line goes on at its end: a bent stroke bends on.
+fn onward(line: &[Sample]) -> DVec2 {
+    let straight = -direction(line, true);
+    let Some(end) = line.last() else { return straight };
+    let nearer = line.iter().rev().find(|s| s.at.distance(end.at) >= DIRECTION_AT / 2.0 * end.radius);
+    let Some(nearer) = nearer.map(|s| (end.at - s.at).normalize_or(straight)) else { return straight };
+    let turn = straight.angle_to(nearer);
+    if turn.abs() < MOST_BEND { DVec2::from_angle(turn * BENDS_ON).rotate(nearer) } else { straight }
 }
 
 /// Ends the line where the bead of the line through the junction does. A short stub that reaches out
@@ -236,7 +257,8 @@ fn bead(line: &[Sample], closed: bool, min_length: f64, options: &ThinFill) -> O
         .map(|s| Sample { at: snap(s.at), radius: round_width(bead_width(s, options)) / 2.0 })
         .collect();
     line.dedup_by(|a, b| a.at == b.at);
-    let line = if closed { simplified_ring(line) } else { simplified(&line) };
+    let share = if options.role == Role::OuterWall { SEEN } else { 1.0 };
+    let line = if closed { simplified_ring(line, share) } else { simplified(&line, share) };
     if line.len() < if closed { 3 } else { 2 } {
         return None;
     }
@@ -256,7 +278,7 @@ pub(crate) fn ring(role: Role, line: Vec<Sample>) -> Option<Path> {
     let rounded = |s: Sample| Sample { at: snap(s.at), radius: round_width(2.0 * s.radius) / 2.0 };
     let mut line: Vec<Sample> = line.into_iter().map(rounded).collect();
     line.dedup_by(|a, b| a.at == b.at);
-    let line = simplified_ring(line);
+    let line = simplified_ring(line, 1.0);
     let width = (line.len() >= 3).then(|| width(&line, true))?;
     Some(Path { role, points: line.into_iter().map(|s| s.at).collect(), closed: true, width, hang: 0.0 })
 }
@@ -295,7 +317,7 @@ fn canonical(mut line: Vec<Sample>, closed: bool) -> Vec<Sample> {
 }
 
 /// A closed line from two far points, both kept.
-fn simplified_ring(mut line: Vec<Sample>) -> Vec<Sample> {
+fn simplified_ring(mut line: Vec<Sample>, share: f64) -> Vec<Sample> {
     let Some(smallest) = (0..line.len()).min_by(|&a, &b| by_x_then_y(line[a].at, line[b].at)) else {
         return line;
     };
@@ -307,16 +329,16 @@ fn simplified_ring(mut line: Vec<Sample>) -> Vec<Sample> {
     });
     let far = far.unwrap_or(0);
     line.push(first);
-    let mut kept = simplified(&line[..=far]);
+    let mut kept = simplified(&line[..=far], share);
     kept.pop();
-    kept.extend(simplified(&line[far..]));
+    kept.extend(simplified(&line[far..], share));
     kept.pop();
     kept
 }
 
 /// Douglas and Peucker 1973 with two measures: the distance to the edge, and the difference from the
 /// width in the middle of it, each as a share of what is allowed.
-fn simplified(line: &[Sample]) -> Vec<Sample> {
+fn simplified(line: &[Sample], share: f64) -> Vec<Sample> {
     let n = line.len();
     if n < 3 {
         return line.to_vec();
@@ -327,7 +349,7 @@ fn simplified(line: &[Sample]) -> Vec<Sample> {
     while let Some((a, b)) = open.pop() {
         let worst = (a + 1..b)
             .map(|i| (i, excess(line[i], line[a], line[b])))
-            .fold((a, 1.0), |worst, next| if next.1 > worst.1 { next } else { worst });
+            .fold((a, share), |worst, next| if next.1 > worst.1 { next } else { worst });
         if worst.0 > a {
             keep[worst.0] = true;
             open.push((a, worst.0));

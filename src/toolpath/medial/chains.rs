@@ -16,6 +16,15 @@ const MOST_BENT: f64 = 0.8;
 /// A spur that reaches less than this is nothing but a corner, in radii.
 const CORNER_REACH: f64 = 0.3;
 
+/// Each of the two branches of a fork reaches less than this far out of the circle at its junction, in radii.
+const FORK_REACH: f64 = 1.0;
+
+/// Half way along, a branch of a fork is thinner than this share of its junction.
+const TAPER: f64 = 0.75;
+
+/// Cosines of the turns into a fork's branches: 20 to 90 degrees.
+const FORK_COSINES: std::ops::Range<f64> = 0.0..0.94;
+
 /// Cosine of the turn up to which a branch goes straight on from another: 30 degrees.
 const STRAIGHT: f64 = 0.87;
 
@@ -25,7 +34,7 @@ const SAME_JUNCTION: f64 = 0.6;
 
 /// How far from a junction, in radii, the direction of a branch is measured. Nearer, the axis bends
 /// towards the junction.
-const DIRECTION_AT: f64 = 2.0;
+pub(super) const DIRECTION_AT: f64 = 2.0;
 
 /// What length is worth against straightness when a junction chooses its through line: the shorter
 /// of the two branches, as a share of the longest one there, times this, is added to the cosine of
@@ -161,6 +170,10 @@ fn without_spurs(nodes: &[Node], branches: Vec<Branch>) -> Vec<Branch> {
         if halves_here.len() < 3 {
             continue;
         }
+        if let Some(tines) = fork(nodes, &halves, &branches, halves_here, junction) {
+            tines.iter().for_each(|h| dropped[h / 2] = true);
+            continue;
+        }
         let spur = |&h: &Half| {
             let [straight, along] = reach(nodes, &halves, &branches[h / 2], h, junction)?;
             let is_short = straight <= SPUR_REACH * junction.radius && along <= MOST_BENT * junction.radius;
@@ -176,6 +189,32 @@ fn without_spurs(nodes: &[Node], branches: Vec<Branch>) -> Vec<Branch> {
         }
     }
     branches.into_iter().zip(dropped).filter(|(_, dropped)| !dropped).map(|(b, _)| b).collect()
+}
+
+/// The two branches into the corners of a stroke's blunt end, or into what is left on both sides of a wall's
+/// tip: the line ends between them rather than in one of them.
+fn fork(
+    nodes: &[Node],
+    halves: &[Vec<Half>],
+    branches: &[Branch],
+    here: &[Half],
+    junction: &Sample,
+) -> Option<[Half; 2]> {
+    let is_tine = |&h: &Half| {
+        let branch = &branches[h / 2];
+        let Some([straight, along]) = reach(nodes, halves, branch, h, junction) else { return false };
+        let off = |s: &Sample| (s.at.distance(junction.at) - (junction.radius + straight) / 2.0).abs();
+        let middle = branch.line.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+        straight.max(along) <= FORK_REACH * junction.radius
+            && middle.is_none_or(|s| s.radius <= TAPER * junction.radius)
+    };
+    let (tines, stems): (Vec<Half>, Vec<Half>) = here.iter().partition(|h| is_tine(h));
+    let (&[a, b], &[stem]) = (&tines[..], &stems[..]) else { return None };
+    let way = |h: Half| direction(&branches[h / 2].line, h % 2 == 1);
+    let (on, a_way, b_way) = (-way(stem), way(a), way(b));
+    let turns_off = |way: DVec2| FORK_COSINES.contains(&way.dot(on));
+    let is_between = on.perp_dot(a_way) * on.perp_dot(b_way) < 0.0;
+    (is_between && turns_off(a_way) && turns_off(b_way)).then_some([a, b])
 }
 
 /// Whether a spur goes straight on where the other two lines of its junction meet at less than 90
