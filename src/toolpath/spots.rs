@@ -20,7 +20,8 @@ use std::ops::{Range, RangeInclusive};
 /// What a bulge does not fill the next one may.
 const ROUNDS: usize = 2;
 
-/// A bulge reaches past the outline by this at most, mm.
+/// The points of a bulge are so wide that they reach past the outline by this, mm. Its ramps may cut a corner
+/// by a little more.
 const PAST_MM: f64 = 0.02;
 
 /// Half the stretch that becomes a flat top, mm.
@@ -343,5 +344,77 @@ fn insert_at(path: &mut Path, along: f64) {
             return;
         }
         left -= edge;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::polygon::dvec2;
+
+    const WIDTHS: RangeInclusive<f64> = 0.2..=0.8;
+
+    /// A strip with a bead along it, and a tooth of 0.5 mm on it that the bead does not reach.
+    fn strip_with_a_tooth() -> (PolygonSet, LayerParts) {
+        let strip = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(6.0, 0.45));
+        let tooth = PolygonSet::rectangle(dvec2(3.0, 0.4), dvec2(3.5, 0.85));
+        let bead = Path::open(Role::OuterWall, vec![dvec2(0.225, 0.225), dvec2(5.775, 0.225)], 0.45);
+        let parts = LayerParts { fills: vec![bead], ..LayerParts::default() };
+        (PolygonSet::union_all(&[strip, tooth]), parts)
+    }
+
+    fn open_points(parts: &LayerParts, outline: &PolygonSet) -> usize {
+        let mut raster = Raster::new(outline.contours());
+        parts.fills.iter().for_each(|path| {
+            raster.cover(path);
+        });
+        raster.spots().iter().map(Vec::len).sum()
+    }
+
+    #[test]
+    fn a_bead_bulges_into_a_tooth_and_keeps_to_the_outline() {
+        let (outline, mut parts) = strip_with_a_tooth();
+        let before = open_points(&parts, &outline);
+        fill_spots(&mut parts, outline.contours(), &outline, &WIDTHS);
+        let [path] = &parts.fills[..] else { panic!("{} beads", parts.fills.len()) };
+        let after = open_points(&parts, &outline);
+        assert!(before > 30 && after < before / 3, "{before} points open, then {after}");
+        let edges: Vec<(DVec2, DVec2)> = outline.contours().iter().flat_map(|c| c.edges()).collect();
+        let border = EdgeGrid::new(&edges);
+        for (i, &p) in path.points.iter().enumerate() {
+            let width = path.width.at(i);
+            assert!(WIDTHS.contains(&width), "{width}");
+            assert!(outline.contains(p) && border.nearest(p, width / 2.0 - 2.0 * PAST_MM).is_none(), "{p}");
+        }
+        assert_eq!((path.points[0], path.width.at(0)), (dvec2(0.225, 0.225), 0.45));
+    }
+
+    #[test]
+    fn a_loop_that_starts_at_the_spot_bulges_too() {
+        let (outline, _) = strip_with_a_tooth();
+        for start in 0..4 {
+            let corners = [dvec2(0.2, 0.225), dvec2(3.25, 0.225), dvec2(5.8, 0.225), dvec2(5.8, 0.215)];
+            let mut path = Path::closed(Role::InnerWall, corners.to_vec(), 0.43);
+            path.start_at(start);
+            let mut parts = LayerParts { fills: vec![path], ..LayerParts::default() };
+            let before = open_points(&parts, &outline);
+            fill_spots(&mut parts, outline.contours(), &outline, &WIDTHS);
+            let after = open_points(&parts, &outline);
+            assert!(after < before / 2, "from point {start}: {before} points open, then {after}");
+        }
+    }
+
+    #[test]
+    fn beads_that_leave_nothing_open_or_are_none_of_the_walls_stay() {
+        let (outline, parts) = strip_with_a_tooth();
+        let strip = PolygonSet::rectangle(dvec2(0.225, 0.0), dvec2(5.775, 0.45));
+        let mut covered = parts.clone();
+        fill_spots(&mut covered, strip.contours(), &strip, &WIDTHS);
+        assert_eq!(covered, parts);
+        let mut infill = parts;
+        infill.fills[0].role = Role::Infill;
+        let before = infill.clone();
+        fill_spots(&mut infill, outline.contours(), &outline, &WIDTHS);
+        assert_eq!(infill, before);
     }
 }

@@ -30,6 +30,9 @@ const SLANTED_REACH: f64 = 0.7;
 /// stroke; where they differ by more it has a corner.
 const MOST_BEND: f64 = 0.5;
 
+/// A stroke is not narrower at its end than this share.
+const STROKE: f64 = 0.55;
+
 /// In a circle the two ways differ by a quarter of the bend; from the middle of the shorter one to the middle
 /// of what is added it bends by twice that.
 const BENDS_ON: f64 = 2.0;
@@ -106,10 +109,12 @@ fn ended(mut line: Vec<Sample>, ends: [End; 2], triangles: &Triangles, options: 
 fn onward(line: &[Sample]) -> DVec2 {
     let straight = -direction(line, true);
     let Some(end) = line.last() else { return straight };
-    let nearer = line.iter().rev().find(|s| s.at.distance(end.at) >= DIRECTION_AT / 2.0 * end.radius);
-    let Some(nearer) = nearer.map(|s| (end.at - s.at).normalize_or(straight)) else { return straight };
+    let back = |radii: f64| line.iter().rev().find(|s| s.at.distance(end.at) >= radii * end.radius);
+    let Some((nearer, farther)) = back(DIRECTION_AT / 2.0).zip(back(DIRECTION_AT)) else { return straight };
+    let nearer = (end.at - nearer.at).normalize_or(straight);
     let turn = straight.angle_to(nearer);
-    if turn.abs() < MOST_BEND { DVec2::from_angle(turn * BENDS_ON).rotate(nearer) } else { straight }
+    let is_stroke = turn.abs() < MOST_BEND && end.radius > STROKE * farther.radius;
+    if is_stroke { DVec2::from_angle(turn * BENDS_ON).rotate(nearer) } else { straight }
 }
 
 /// Ends the line where the bead of the line through the junction does. A short stub that reaches out

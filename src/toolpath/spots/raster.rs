@@ -152,8 +152,8 @@ impl Raster {
         }
     }
 
-    /// Open points that lie together, spot by spot, the spots in the order of their lowest points.
-    pub(super) fn spots(&self) -> Vec<Vec<DVec2>> {
+    /// Rows and columns of the points that no bead covers, in order.
+    fn open(&self) -> Vec<(i32, i32)> {
         let mut points: Vec<(i32, i32)> = Vec::new();
         for (tile, &number) in self.tiles.iter().enumerate().filter(|(_, number)| **number != NONE) {
             let start = number as usize * (SIDE * SIDE) as usize;
@@ -163,6 +163,12 @@ impl Raster {
             points.extend(open.map(|(_, place)| (y * SIDE + place / SIDE, x * SIDE + place % SIDE)));
         }
         points.stable_sort_by(Ord::cmp);
+        points
+    }
+
+    /// Open points that lie together, spot by spot, the spots in the order of their lowest points.
+    pub(super) fn spots(&self) -> Vec<Vec<DVec2>> {
+        let points = self.open();
         let mut sets = Sets::new(points.len());
         for (i, &(row, column)) in points.iter().enumerate() {
             for beside in [(row, column + 1), (row + 1, column)] {
@@ -182,4 +188,55 @@ impl Raster {
 
 fn point(column: i32, row: i32) -> DVec2 {
     (dvec2(f64::from(column), f64::from(row)) + 0.5) * STEP_MM
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::polygon::stars::hollow_star;
+    use crate::region::{Role, Width};
+    use proptest::prelude::*;
+
+    fn beads() -> impl Strategy<Value = Vec<Path>> {
+        let point = (0.0..10.0, 0.0..10.0, 0.2..0.8_f64);
+        let path = (prop::collection::vec(point, 2..6), any::<bool>()).prop_map(|(points, closed)| {
+            let widths = points.iter().map(|p| p.2).collect();
+            let points = points.iter().map(|p| dvec2(p.0, p.1)).collect();
+            Path { closed, width: Width::Varying(widths), ..Path::open(Role::OuterWall, points, 0.0) }
+        });
+        prop::collection::vec(path, 0..5)
+    }
+
+    fn is_under(path: &Path, p: DVec2) -> bool {
+        path.edges().any(|(i, next)| {
+            let (a, b) = (path.points[i], path.points[next]);
+            let foot = closest_on_segment(p, a, b);
+            let share = a.distance(foot) / a.distance(b).max(f64::MIN_POSITIVE);
+            let width = path.width.at(i) + (path.width.at(next) - path.width.at(i)) * share;
+            foot.distance(p) <= width / 2.0
+        })
+    }
+
+    proptest! {
+        /// The twin asks every point of the area's box whether it is inside and under no bead.
+        #[test]
+        fn open_points_are_those_inside_under_no_bead(area in hollow_star(), beads in beads()) {
+            let mut raster = Raster::new(area.contours());
+            let all: usize = raster.open().len();
+            let covered: i32 = beads.iter().map(|path| raster.cover(path)).sum();
+            let mut expected = Vec::new();
+            for (row, column) in (-30..160).flat_map(|row| (-30..160).map(move |column| (row, column))) {
+                let p = point(column, row);
+                if area.contains(p) && !beads.iter().any(|path| is_under(path, p)) {
+                    expected.push((row, column));
+                }
+            }
+            prop_assert_eq!(&raster.open(), &expected);
+            prop_assert_eq!(all, expected.len() + covered as usize);
+            let largest = raster.spots().iter().map(Vec::len).max().unwrap_or(0);
+            prop_assert!(largest <= expected.len());
+            let uncovered: i32 = beads.iter().map(|path| raster.uncover(path)).sum();
+            prop_assert_eq!((uncovered, raster.open().len()), (covered, all));
+        }
+    }
 }
