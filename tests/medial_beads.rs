@@ -201,6 +201,34 @@ fn a_stroke_that_another_meets_below_its_end_goes_on_to_it() {
     assert!(beads.paths.iter().any(|path| path.is_near(dvec2(0.08, 0.48), 0.05)), "{beads:?}");
 }
 
+/// The arm of a 5: the bead keeps to the middle of the arc up to its ends.
+#[test]
+fn a_bent_stroke_ends_in_its_bend() {
+    let arc = |radius: f64, i: usize| {
+        let (sin, cos) = sin_cos(1.25 * PI * i as f64 / 40.0);
+        (radius * cos, radius * sin)
+    };
+    let outer = (0..=40).map(|i| arc(1.0, i));
+    let inner = (0..=40).rev().map(|i| arc(0.42, i));
+    let shape = area(&outer.chain(inner).collect::<Vec<_>>());
+    let beads = fill(&shape);
+    let [path] = &beads.paths[..] else { panic!("{beads:?}") };
+    for p in [path.points[0], path.points[path.points.len() - 1]] {
+        assert!((p.length() - 0.71).abs() < 0.03, "{p} in {beads:?}");
+    }
+}
+
+/// What is left between the tips of two walls: the bead runs between the horns on both sides of a tip.
+#[test]
+fn a_forked_end_is_filled_between_its_horns() {
+    let shape = area(&[(0.0, 0.0), (3.0, 0.0), (2.9, 0.25), (3.0, 0.5), (0.0, 0.5)]);
+    let beads = fill(&shape);
+    let [path] = &beads.paths[..] else { panic!("{beads:?}") };
+    for p in &path.points {
+        assert!((p.y - 0.25).abs() < 0.03, "{beads:?}");
+    }
+}
+
 /// A half disc: both ends of its line lie in corners, in which a bead as wide as its middle would stick out.
 #[test]
 fn a_bead_is_as_narrow_at_its_end_as_its_place() {

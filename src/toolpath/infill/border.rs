@@ -104,16 +104,27 @@ impl<'a> Border<'a> {
         [&points[first..], &points[..last]].concat()
     }
 
+    /// The point at a place.
+    fn point(&self, place: BorderPlace) -> DVec2 {
+        let ways = &self.along[place.contour];
+        let edge = ways.partition_point(|&w| w <= place.at).clamp(1, ways.len() - 1) - 1;
+        let points = &self.area.contours()[place.contour].points;
+        let share = (place.at - ways[edge]) / (ways[edge + 1] - ways[edge]).max(f64::MIN_POSITIVE);
+        points[edge].lerp(points[(edge + 1) % points.len()], share)
+    }
+
     /// Joins pieces whose ends are neighbours along the border and no farther apart than `longest`
-    /// mm to lines that follow the border between them.
+    /// mm to lines that follow the border between them. Ends that stay free follow the border for up to
+    /// `anchor` mm to the emptier side: where a line only touches a wall it comes off.
     ///
     /// Round each contour an end is joined with the next one whenever both are free and belong to
     /// different lines. Where parallel lines end this gives the familiar zigzag: ends are joined two
     /// by two, on the other side one farther, because there the first pair is one line already.
-    pub(super) fn join(&self, pieces: Vec<Piece>, longest: f64) -> Vec<Vec<DVec2>> {
+    pub(super) fn join(&self, pieces: Vec<Piece>, longest: f64, anchor: f64) -> Vec<Vec<DVec2>> {
         let mut joints = vec![None; 2 * pieces.len()];
         let mut lines = Sets::new(pieces.len());
-        for ring in self.ends_by_contour(&pieces) {
+        let rings = self.ends_by_contour(&pieces);
+        for ring in &rings {
             let count = ring.len();
             for i in 0..count {
                 let (from, to) = (ring[i], ring[(i + 1) % count]);
@@ -126,7 +137,42 @@ impl<'a> Border<'a> {
                 }
             }
         }
-        self.follow(&pieces, &joints)
+        let mut anchors = vec![Vec::new(); 2 * pieces.len()];
+        for ring in &rings {
+            for (i, &end) in ring.iter().enumerate().filter(|(_, end)| joints[**end].is_none()) {
+                let beside = [ring[(i + ring.len() - 1) % ring.len()], ring[(i + 1) % ring.len()]];
+                let [before, here, after] = [beside[0], end, beside[1]].map(|e| pieces[e / 2].ends[e % 2]);
+                anchors[end] = self.anchor(before, here, after, anchor);
+            }
+        }
+        self.follow(&pieces, &joints, &anchors)
+    }
+
+    /// The way of a free end along the border, up to `longest` mm and between the ends before and after.
+    fn anchor(
+        &self,
+        before: BorderPlace,
+        here: BorderPlace,
+        after: BorderPlace,
+        longest: f64,
+    ) -> Vec<DVec2> {
+        let around = self.length(here.contour);
+        let free = |way: f64| if way == 0.0 { around } else { way } / 2.0;
+        let (back, on) = (free(self.way(before, here)), free(self.way(here, after)));
+        // The other side's may have an anchor, too; a gap stays between them.
+        let length = longest.min(back.max(on) - longest / 2.0);
+        if length <= longest / 2.0 {
+            return Vec::new();
+        }
+        let at = |by: f64| BorderPlace { at: (here.at + by).rem_euclid(around), ..here };
+        if on >= back {
+            let end = at(length);
+            return [self.points_between(here, end), vec![self.point(end)]].concat();
+        }
+        let end = at(-length);
+        let mut points = [vec![self.point(end)], self.points_between(end, here)].concat();
+        points.reverse();
+        points
     }
 
     /// For each contour the ends on it in its direction; end 2 i + k is end k of piece i.
@@ -144,8 +190,13 @@ impl<'a> Border<'a> {
         rings.into_iter().map(in_order).collect()
     }
 
-    /// The points of each joined line, from a free end to the other.
-    fn follow(&self, pieces: &[Piece], joints: &[Option<Joint>]) -> Vec<Vec<DVec2>> {
+    /// The points of each joined line, from a free end's anchor to the other's.
+    fn follow(
+        &self,
+        pieces: &[Piece],
+        joints: &[Option<Joint>],
+        anchors: &[Vec<DVec2>],
+    ) -> Vec<Vec<DVec2>> {
         let mut done = vec![false; pieces.len()];
         let mut lines = Vec::new();
         // Joined lines are never closed, so that each has a free end.
@@ -153,7 +204,7 @@ impl<'a> Border<'a> {
             if done[start / 2] {
                 continue;
             }
-            let mut points = Vec::new();
+            let mut points: Vec<DVec2> = anchors[start].iter().rev().copied().collect();
             let mut end = start;
             loop {
                 let piece = &pieces[end / 2];
@@ -164,7 +215,10 @@ impl<'a> Border<'a> {
                     points.extend(piece.points.iter().rev());
                 }
                 let out = end ^ 1;
-                let Some(joint) = joints[out] else { break };
+                let Some(joint) = joints[out] else {
+                    points.extend(&anchors[out]);
+                    break;
+                };
                 points.extend(self.joint_points(pieces, out, joint));
                 end = joint.to;
             }
@@ -191,4 +245,39 @@ struct Joint {
     to: usize,
     /// Whether in the contour's direction.
     forward: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::polygon::{dvec2, snap};
+
+    fn joined(longest: f64, anchor: f64, at: &[f64]) -> Vec<Vec<DVec2>> {
+        let square = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(10.0, 10.0));
+        let border = Border::of(&square);
+        let lines: Vec<Vec<DVec2>> = at.iter().map(|&x| vec![dvec2(x, -1.0), dvec2(x, 11.0)]).collect();
+        let lines = border.join(border.cut(&lines), longest, anchor);
+        lines.into_iter().map(|line| line.into_iter().map(snap).collect()).collect()
+    }
+
+    #[test]
+    fn free_ends_follow_the_border_to_the_emptier_side() {
+        let lines = joined(0.0, 1.0, &[3.0]);
+        let along = [dvec2(4.0, 0.0), dvec2(3.0, 0.0), dvec2(3.0, 10.0), dvec2(4.0, 10.0)];
+        assert_eq!(lines, [along.to_vec()]);
+        // Around the corner.
+        let lines = joined(0.0, 1.0, &[9.5]);
+        let along = [dvec2(8.5, 0.0), dvec2(9.5, 0.0), dvec2(9.5, 10.0), dvec2(8.5, 10.0)];
+        assert_eq!(lines, [along.to_vec()]);
+        assert_eq!(joined(0.0, 0.0, &[3.0]), [vec![dvec2(3.0, 0.0), dvec2(3.0, 10.0)]]);
+    }
+
+    #[test]
+    fn joined_ends_have_no_anchor() {
+        let lines = joined(3.0, 1.0, &[3.0, 5.0]);
+        let [line] = &lines[..] else { panic!("{lines:?}") };
+        let anchored = [dvec2(2.0, 10.0), dvec2(3.0, 10.0), dvec2(3.0, 0.0), dvec2(5.0, 0.0)];
+        let other = [dvec2(5.0, 10.0), dvec2(6.0, 10.0)];
+        assert_eq!(*line, [&anchored[..], &other].concat());
+    }
 }

@@ -58,6 +58,9 @@ pub struct InfillLayer {
     pub z: f64,
 }
 
+/// Ends of sparse infill that are not joined follow the wall this far, in line widths.
+const ANCHOR: f64 = 2.0;
+
 /// Shorter pieces of sparse infill hold nothing and only cost time, mm.
 const SHORTEST_SPARSE_LINE: f64 = 0.8;
 
@@ -91,7 +94,8 @@ pub fn fill_sparse(area: &PolygonSet, bead: Bead, layer: InfillLayer, options: &
     }
     let border = Border::of(&inside);
     let pieces = pattern_pieces(&inside, &border, bead.spacing(), layer, density, options.pattern);
-    let joined = border.join(pieces, options.anchor_max);
+    let anchor = (ANCHOR * bead.width).min(options.anchor_max);
+    let joined = border.join(pieces, options.anchor_max, anchor);
     let paths = joined.into_iter().map(|points| Path::open(Role::Infill, points, bead.width));
     paths.filter(|path| path.length() >= SHORTEST_SPARSE_LINE).collect()
 }

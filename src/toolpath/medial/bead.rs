@@ -30,8 +30,8 @@ const SLANTED_REACH: f64 = 0.7;
 /// stroke; where they differ by more it has a corner.
 const MOST_BEND: f64 = 0.5;
 
-/// A stroke is not narrower at its end than this share.
-const STROKE: f64 = 0.55;
+/// How wide a stroke is at its end, as shares of its width before; what grows wider runs into another.
+const STROKE: std::ops::Range<f64> = 0.55..1.15;
 
 /// In a circle the two ways differ by a quarter of the bend; from the middle of the shorter one to the middle
 /// of what is added it bends by twice that.
@@ -113,7 +113,7 @@ fn onward(line: &[Sample]) -> DVec2 {
     let Some((nearer, farther)) = back(DIRECTION_AT / 2.0).zip(back(DIRECTION_AT)) else { return straight };
     let nearer = (end.at - nearer.at).normalize_or(straight);
     let turn = straight.angle_to(nearer);
-    let is_stroke = turn.abs() < MOST_BEND && end.radius > STROKE * farther.radius;
+    let is_stroke = turn.abs() < MOST_BEND && STROKE.contains(&(end.radius / farther.radius));
     if is_stroke { DVec2::from_angle(turn * BENDS_ON).rotate(nearer) } else { straight }
 }
 
