@@ -85,7 +85,8 @@ pub fn fill_spots(
             });
             let room = Room::new(spot, border, widths);
             let near = room.nearest(&beads).into_iter();
-            let best = near.filter_map(|(bead, along)| Some((bead, room.best(beads[bead], along, &mut raster)?)));
+            let best =
+                near.filter_map(|(bead, along)| Some((bead, room.best(beads[bead], along, &mut raster)?)));
             if let Some((bead, bulge)) = best.max_by(|a, b| a.1.gain.total_cmp(&b.1.gain)) {
                 raster.uncover(&bulge.stretch.part);
                 raster.cover(&bulge.bent());
@@ -260,7 +261,8 @@ impl<'a> Room<'a> {
         let mut found: Vec<_> = ways.filter_map(bulge).collect();
         found.stable_sort_by(|a, b| b.0.total_cmp(&a.0));
         found.truncate(TRIES);
-        let bulge = |(gain, line, width, filled)| Bulge { stretch: stretch.clone(), line, width, gain, filled };
+        let bulge =
+            |(gain, line, width, filled)| Bulge { stretch: stretch.clone(), line, width, gain, filled };
         found.into_iter().map(bulge).collect()
     }
 

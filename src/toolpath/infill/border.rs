@@ -149,13 +149,7 @@ impl<'a> Border<'a> {
     }
 
     /// The way of a free end along the border, up to `longest` mm and between the ends before and after.
-    fn anchor(
-        &self,
-        before: BorderPlace,
-        here: BorderPlace,
-        after: BorderPlace,
-        longest: f64,
-    ) -> Vec<DVec2> {
+    fn anchor(&self, before: BorderPlace, here: BorderPlace, after: BorderPlace, longest: f64) -> Vec<DVec2> {
         let around = self.length(here.contour);
         let free = |way: f64| if way == 0.0 { around } else { way } / 2.0;
         let (back, on) = (free(self.way(before, here)), free(self.way(here, after)));
@@ -191,12 +185,7 @@ impl<'a> Border<'a> {
     }
 
     /// The points of each joined line, from a free end's anchor to the other's.
-    fn follow(
-        &self,
-        pieces: &[Piece],
-        joints: &[Option<Joint>],
-        anchors: &[Vec<DVec2>],
-    ) -> Vec<Vec<DVec2>> {
+    fn follow(&self, pieces: &[Piece], joints: &[Option<Joint>], anchors: &[Vec<DVec2>]) -> Vec<Vec<DVec2>> {
         let mut done = vec![false; pieces.len()];
         let mut lines = Vec::new();
         // Joined lines are never closed, so that each has a free end.

@@ -1,4 +1,4 @@
-//! Points of an area that no bead covers.
+//! Points of an area, and how many edges of beads lie over each.
 
 use crate::polygon::simplify::closest_on_segment;
 use crate::polygon::{Contour, DVec2, dvec2};
@@ -12,7 +12,6 @@ pub(super) const STEP_MM: f64 = 0.07;
 
 /// A spot has as many points at least: 0.02 mm2.
 const FEWEST: usize = 4;
-
 
 /// Points along each side of a tile.
 const SIDE: i32 = 16;
@@ -58,7 +57,8 @@ impl Raster {
     /// The points of `places`, which do not overlap.
     pub(super) fn new(places: &[Contour]) -> Raster {
         let all = stretches(places);
-        let [low, high] = [0, all.len().saturating_sub(1)].map(|i| all.get(i).map_or(0, |s| s.0.div_euclid(SIDE)));
+        let [low, high] =
+            [0, all.len().saturating_sub(1)].map(|i| all.get(i).map_or(0, |s| s.0.div_euclid(SIDE)));
         let left = all.iter().map(|s| s.1.start).min().unwrap_or(0).div_euclid(SIDE);
         let right = all.iter().map(|s| s.1.end).max().unwrap_or(0).div_euclid(SIDE);
         let columns = right - left + 1;
@@ -86,12 +86,7 @@ impl Raster {
     }
 
     /// Visits the points of these columns and rows in kept tiles: column, row and mark.
-    fn each_kept(
-        &mut self,
-        columns: Range<i32>,
-        rows: Range<i32>,
-        mut visit: impl FnMut(i32, i32, &mut u8),
-    ) {
+    fn each_kept(&mut self, columns: Range<i32>, rows: Range<i32>, mut visit: impl FnMut(i32, i32, &mut u8)) {
         let count = self.tiles.len() as i32 / self.columns;
         let within = |r: &Range<i32>, low: i32, count: i32| {
             (r.start.div_euclid(SIDE)).max(low)..((r.end - 1).div_euclid(SIDE) + 1).min(low + count)
@@ -138,7 +133,8 @@ impl Raster {
         for ends in path.edges() {
             let [(a, from), (b, to)] = [ends.0, ends.1].map(|i| (path.points[i], path.width.at(i) / 2.0));
             let (low, high) = (a.min(b) - from.max(to), a.max(b) + from.max(to));
-            let [columns, rows] = [low.x..high.x, low.y..high.y].map(|r| first_from(r.start)..first_from(r.end));
+            let [columns, rows] =
+                [low.x..high.x, low.y..high.y].map(|r| first_from(r.start)..first_from(r.end));
             self.each_kept(columns, rows, |column, row, mark| {
                 if *mark != NO_POINT {
                     let p = point(column, row);
