@@ -2,7 +2,7 @@
 //!
 //! A way that would leave follows the centre lines of the outer walls, half a line inside the
 //! outline, and is then pulled tight. A way to another island is combed up to where it leaves and from
-//! where it enters.
+//! where it enters. Walls too thin for a rail, fins, are left along their own bead.
 
 use super::travel::Way;
 use crate::polygon::grid::EdgeGrid;
@@ -16,6 +16,9 @@ const LONGEST_DETOUR: f64 = 2.0;
 /// less than a line's width.
 const ON_RAIL: f64 = 0.02;
 
+/// A fin stands on the wall whose rail is no farther than this from its end, mm.
+const TO_RAIL: f64 = 1.0;
+
 /// What keeps travels inside the part on one layer.
 pub(super) struct Comb<'a> {
     outline: EdgeGrid,
@@ -26,6 +29,8 @@ pub(super) struct Comb<'a> {
     rail_grid: EdgeGrid,
     /// Rail and edge of each edge in the grid.
     owners: Vec<(usize, usize)>,
+    /// Beads of walls too thin for a rail.
+    fins: Vec<&'a [DVec2]>,
 }
 
 /// Where a straight way crosses a rail.
@@ -37,7 +42,7 @@ struct Crossing {
 }
 
 impl<'a> Comb<'a> {
-    pub(super) fn new(outline: &[Polygon], rails: Vec<&'a [DVec2]>) -> Comb<'a> {
+    pub(super) fn new(outline: &[Polygon], rails: Vec<&'a [DVec2]>, fins: Vec<&'a [DVec2]>) -> Comb<'a> {
         let contours =
             |island: &Polygon| -> Vec<(DVec2, DVec2)> { island.contours().flat_map(|c| c.edges()).collect() };
         let owned =
@@ -54,12 +59,55 @@ impl<'a> Comb<'a> {
             owners: owners.collect(),
             rail_grid: EdgeGrid::new(&rail_edges),
             rails,
+            fins,
         }
     }
 
-    /// The way from `a` to `b`: straight if that stays within the outer walls, else along the rails if
-    /// that is not too long, else straight.
+    /// The way from `a` to `b`: straight if that stays within the outer walls, else along the rails and the
+    /// fins that begin there if that is not too long, else straight.
     pub(super) fn way(&self, a: DVec2, b: DVec2) -> Way {
+        let way = self.way_between_walls(a, b);
+        if !way.crosses_outline || self.fins.is_empty() {
+            return way;
+        }
+        let starts = [vec![vec![a]], self.along_fins(a)].concat();
+        let ends = [vec![vec![b]], self.along_fins(b)].concat();
+        let mut shortest = (LONGEST_DETOUR * a.distance(b), way);
+        for start in &starts {
+            for end in &ends {
+                let (from, to) = (start[start.len() - 1], end[end.len() - 1]);
+                let middle = self.way_between_walls(from, to);
+                let back = end.iter().rev().copied();
+                let stops: Vec<DVec2> = start.iter().copied().chain(middle.via).chain(back).collect();
+                if !middle.crosses_outline && length(&stops) < shortest.0 {
+                    let via = stops[1..stops.len() - 1].to_vec();
+                    shortest = (length(&stops), Way { via, crosses_outline: false });
+                }
+            }
+        }
+        shortest.1
+    }
+
+    /// The ways from the end of fins at `p` along them to the wall that they stand on.
+    fn along_fins(&self, p: DVec2) -> Vec<Vec<DVec2>> {
+        let beginning = self.fins.iter().filter_map(|fin| {
+            let (first, last) = (fin.first()?, fin.last()?);
+            match p {
+                _ if p == *first => Some(fin.to_vec()),
+                _ if p == *last => Some(fin.iter().rev().copied().collect()),
+                _ => None,
+            }
+        });
+        let to_wall = beginning.map(|mut way: Vec<DVec2>| {
+            let foot = self.rail_grid.nearest(way[way.len() - 1], TO_RAIL);
+            way.extend(foot);
+            way
+        });
+        to_wall.collect()
+    }
+
+    /// The way between places in walls with rails.
+    fn way_between_walls(&self, a: DVec2, b: DVec2) -> Way {
         if self.sees(a, b) {
             return Way::default();
         }
@@ -87,7 +135,9 @@ impl<'a> Comb<'a> {
         let share = |c: &Crossing| a.distance(c.at) / a.distance(b);
         let p = rails.iter().rfind(|c| share(c) < outlines[leave].0)?.at;
         let q = rails.iter().find(|c| share(c) > outlines[enter].0)?.at;
-        let inside = |from: DVec2, to: DVec2| Some(self.way(from, to)).filter(|way| !way.crosses_outline);
+        let inside = |from: DVec2, to: DVec2| {
+            Some(self.way_between_walls(from, to)).filter(|way| !way.crosses_outline)
+        };
         let via = [inside(a, p)?.via, vec![p, q], inside(q, b)?.via].concat();
         let stops = [&[a][..], &via, &[b]].concat();
         let is_short = length(&stops) <= LONGEST_DETOUR * a.distance(b);
@@ -180,7 +230,7 @@ fn length(stops: &[DVec2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::polygon::{Join, PolygonSet, dvec2};
+    use crate::polygon::{Join, PolygonSet, dvec2, snap};
     use proptest::prelude::*;
 
     fn rails(area: &PolygonSet) -> Vec<Vec<DVec2>> {
@@ -192,7 +242,7 @@ mod tests {
         let l = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(20.0, 5.0))
             .union(&PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(5.0, 20.0)));
         let rails = rails(&l);
-        let comb = Comb::new(&l.islands(), rails.iter().map(Vec::as_slice).collect());
+        let comb = Comb::new(&l.islands(), rails.iter().map(Vec::as_slice).collect(), Vec::new());
         let way = comb.way(dvec2(4.0, 18.0), dvec2(18.0, 4.0));
         assert!(!way.crosses_outline);
         assert_eq!(way.via, [dvec2(4.8, 4.8)]);
@@ -203,12 +253,33 @@ mod tests {
     }
 
     #[test]
+    fn fins_are_left_and_entered_along_their_bead() {
+        let block = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(20.0, 20.0));
+        let fin = |y: f64| PolygonSet::rectangle(dvec2(20.0, y - 0.2), dvec2(32.0, y + 0.2));
+        let part = PolygonSet::union_all(&[block.clone(), fin(5.0), fin(15.0)]);
+        let rails = rails(&block);
+        let fins = [5.0, 15.0].map(|y| vec![dvec2(20.0, y), dvec2(31.8, y)]);
+        let fins = || fins.iter().map(Vec::as_slice).collect::<Vec<_>>();
+        let comb = Comb::new(&part.islands(), rails.iter().map(Vec::as_slice).collect(), fins());
+        let way = |from: DVec2, to: DVec2| {
+            let way = comb.way(from, to);
+            Way { via: way.via.into_iter().map(snap).collect(), ..way }
+        };
+        let out = way(dvec2(31.8, 5.0), dvec2(10.0, 15.0));
+        assert_eq!(out, Way { via: vec![dvec2(20.0, 5.0), dvec2(19.8, 5.0)], crosses_outline: false });
+        let back = way(dvec2(10.0, 15.0), dvec2(31.8, 5.0));
+        assert_eq!(back, Way { via: vec![dvec2(19.8, 5.0), dvec2(20.0, 5.0)], crosses_outline: false });
+        // From tip to tip along both is more than twice as far as through the air.
+        assert_eq!(way(dvec2(31.8, 5.0), dvec2(31.8, 15.0)), Way::ACROSS);
+    }
+
+    #[test]
     fn a_long_way_round_and_a_way_to_another_island_are_left_straight() {
         let u = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(20.0, 30.0))
             .difference(&PolygonSet::rectangle(dvec2(5.0, 5.0), dvec2(15.0, 31.0)))
             .union(&PolygonSet::rectangle(dvec2(30.0, 0.0), dvec2(40.0, 5.0)));
         let rails = rails(&u);
-        let comb = Comb::new(&u.islands(), rails.iter().map(Vec::as_slice).collect());
+        let comb = Comb::new(&u.islands(), rails.iter().map(Vec::as_slice).collect(), Vec::new());
         assert_eq!(comb.way(dvec2(4.0, 29.0), dvec2(16.0, 29.0)), Way::ACROSS);
         assert_eq!(comb.way(dvec2(18.0, 2.0), dvec2(32.0, 2.0)), Way::ACROSS);
         assert!(!comb.way(dvec2(4.0, 8.0), dvec2(16.0, 8.0)).crosses_outline);
@@ -221,7 +292,7 @@ mod tests {
             .difference(&PolygonSet::rectangle(dvec2(4.0, 4.0), dvec2(16.0, 16.0)));
         let two = frame.union(&PolygonSet::rectangle(dvec2(8.0, -10.0), dvec2(12.0, -6.0)));
         let rails = rails(&two);
-        let comb = Comb::new(&two.islands(), rails.iter().map(Vec::as_slice).collect());
+        let comb = Comb::new(&two.islands(), rails.iter().map(Vec::as_slice).collect(), Vec::new());
         let (a, b) = (dvec2(5.0, 18.0), dvec2(10.0, -8.0));
         let way = comb.way(a, b);
         let stops = [&[a][..], &way.via, &[b]].concat();
@@ -253,7 +324,7 @@ mod tests {
                 })
             };
             let rails = rails(&area);
-            let comb = Comb::new(&area.islands(), rails.iter().map(Vec::as_slice).collect());
+            let comb = Comb::new(&area.islands(), rails.iter().map(Vec::as_slice).collect(), Vec::new());
             let inside: Vec<DVec2> =
                 points.into_iter().map(|(x, y)| dvec2(x, y)).filter(|&p| area.contains(p)).collect();
             for pair in inside.windows(2) {

@@ -222,8 +222,11 @@ fn entered_near(path: &Path, here: DVec2) -> Path {
 
 /// Combed ways; the rails are the outer walls, which run half a bead inside the outline.
 fn find_ways(paths: &[Path], outline: &[Polygon]) -> Vec<Way> {
-    let rails = paths.iter().filter(|p| p.closed && p.role == Role::OuterWall).map(|p| p.points.as_slice());
-    let comb = Comb::new(outline, rails.collect());
+    let outer = |closed: bool| {
+        let of_kind = paths.iter().filter(move |p| p.role == Role::OuterWall && p.closed == closed);
+        of_kind.map(|p| p.points.as_slice()).collect()
+    };
+    let comb = Comb::new(outline, outer(true), outer(false));
     let ways = paths.windows(2).map(|w| comb.way(end_of(&w[0]), w[1].points[0]));
     let first = paths.first().map(|_| Way::ACROSS);
     first.into_iter().chain(ways).collect()
