@@ -110,42 +110,34 @@ impl Raster {
 
     /// Notes what a bead covers. Returns how many points were open.
     pub(super) fn cover(&mut self, path: &Path) -> i32 {
-        let mut count = 0;
-        self.under(path, |mark| {
-            count += i32::from(*mark == 0);
-            *mark = (*mark + 1).min(NO_POINT - 1);
-        });
-        count
+        self.count_edges(path, true)
     }
 
     /// Takes back what [`Raster::cover`] noted. Returns how many points are open now.
     pub(super) fn uncover(&mut self, path: &Path) -> i32 {
-        let mut count = 0;
-        self.under(path, |mark| {
-            *mark = mark.saturating_sub(1);
-            count += i32::from(*mark == 0);
-        });
-        count
+        self.count_edges(path, false)
     }
 
-    /// Visits the marks of all points under the edges of a bead.
-    fn under(&mut self, path: &Path, mut visit: impl FnMut(&mut u8)) {
+    /// Adds the edges of a bead to the marks of the points below, or takes them off. Returns how many points
+    /// are open without them.
+    fn count_edges(&mut self, path: &Path, adds: bool) -> i32 {
+        let mut open = 0;
         for ends in path.edges() {
             let [(a, from), (b, to)] = [ends.0, ends.1].map(|i| (path.points[i], path.width.at(i) / 2.0));
             let (low, high) = (a.min(b) - from.max(to), a.max(b) + from.max(to));
-            let [columns, rows] =
-                [low.x..high.x, low.y..high.y].map(|r| first_from(r.start)..first_from(r.end));
+            let [columns, rows] = [low.x..high.x, low.y..high.y].map(|r| first_from(r.start)..first_from(r.end));
             self.each_kept(columns, rows, |column, row, mark| {
-                if *mark != NO_POINT {
-                    let p = point(column, row);
-                    let foot = closest_on_segment(p, a, b);
-                    let share = a.distance(foot) / a.distance(b).max(f64::MIN_POSITIVE);
-                    if foot.distance(p) <= from + (to - from) * share {
-                        visit(mark);
-                    }
+                let p = point(column, row);
+                let foot = closest_on_segment(p, a, b);
+                let share = a.distance(foot) / a.distance(b).max(f64::MIN_POSITIVE);
+                if *mark != NO_POINT && foot.distance(p) <= from + (to - from) * share {
+                    let without = if adds { *mark } else { mark.saturating_sub(1) };
+                    open += i32::from(without == 0);
+                    *mark = if adds { (without + 1).min(NO_POINT - 1) } else { without };
                 }
             });
         }
+        open
     }
 
     /// Rows and columns of the points that no bead covers, in order.
