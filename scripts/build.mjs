@@ -123,7 +123,9 @@ function targetFolder(...parts) {
 async function optimise(name, file) {
   const features = ['simd', 'bulk-memory', 'nontrapping-float-to-int', 'sign-ext', 'mutable-globals'];
   const before = statSync(file).size;
-  await runPackage('binaryen/bin/wasm-opt', ['-O3', ...features.map((it) => `--enable-${it}`), file, '-o', file]);
+  // The compiler has put functions into others where that is faster; a second time it only makes them larger.
+  const level = ['-O2', '--one-caller-inline-max-function-size', '0'];
+  await runPackage('binaryen/bin/wasm-opt', [...level, ...features.map((it) => `--enable-${it}`), file, '-o', file]);
   const bytes = readFileSync(file);
   const kib = (n) => `${(n / 1024).toFixed(0)} KiB`;
   console.log(
