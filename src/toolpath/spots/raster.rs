@@ -125,7 +125,8 @@ impl Raster {
         for ends in path.edges() {
             let [(a, from), (b, to)] = [ends.0, ends.1].map(|i| (path.points[i], path.width.at(i) / 2.0));
             let (low, high) = (a.min(b) - from.max(to), a.max(b) + from.max(to));
-            let [columns, rows] = [low.x..high.x, low.y..high.y].map(|r| first_from(r.start)..first_from(r.end));
+            let [columns, rows] =
+                [low.x..high.x, low.y..high.y].map(|r| first_from(r.start)..first_from(r.end));
             self.each_kept(columns, rows, |column, row, mark| {
                 let p = point(column, row);
                 let foot = closest_on_segment(p, a, b);
