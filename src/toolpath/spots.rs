@@ -57,6 +57,9 @@ const LEAVING_COSTS: f64 = 2.0;
 /// Area laid twice counts this much against area filled.
 const OVERFILL_COSTS: f64 = 0.3;
 
+/// On layers smaller than this what a bulge lays twice has nowhere to go, mm2.
+const SMALLEST_MM2: f64 = 4.0;
+
 /// Beads that may bulge.
 const BULGING: [Role; 3] = [Role::OuterWall, Role::InnerWall, Role::GapFill];
 
@@ -67,7 +70,7 @@ pub fn fill_spots(
     outline: &PolygonSet,
     widths: &RangeInclusive<f64>,
 ) {
-    if places.is_empty() {
+    if places.is_empty() || outline.area() < SMALLEST_MM2 {
         return;
     }
     let mut raster = Raster::new(places);
@@ -358,9 +361,9 @@ mod tests {
 
     /// A strip with a bead along it, and a tooth of 0.5 mm on it that the bead does not reach.
     fn strip_with_a_tooth() -> (PolygonSet, LayerParts) {
-        let strip = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(6.0, 0.45));
+        let strip = PolygonSet::rectangle(dvec2(0.0, 0.0), dvec2(10.0, 0.45));
         let tooth = PolygonSet::rectangle(dvec2(3.0, 0.4), dvec2(3.5, 0.85));
-        let bead = Path::open(Role::OuterWall, vec![dvec2(0.225, 0.225), dvec2(5.775, 0.225)], 0.45);
+        let bead = Path::open(Role::OuterWall, vec![dvec2(0.225, 0.225), dvec2(9.775, 0.225)], 0.45);
         let parts = LayerParts { fills: vec![bead], ..LayerParts::default() };
         (PolygonSet::union_all(&[strip, tooth]), parts)
     }
@@ -395,7 +398,7 @@ mod tests {
     fn a_loop_that_starts_at_the_spot_bulges_too() {
         let (outline, _) = strip_with_a_tooth();
         for start in 0..4 {
-            let corners = [dvec2(0.2, 0.225), dvec2(3.25, 0.225), dvec2(5.8, 0.225), dvec2(5.8, 0.215)];
+            let corners = [dvec2(0.2, 0.225), dvec2(3.25, 0.225), dvec2(9.8, 0.225), dvec2(9.8, 0.215)];
             let mut path = Path::closed(Role::InnerWall, corners.to_vec(), 0.43);
             path.start_at(start);
             let mut parts = LayerParts { fills: vec![path], ..LayerParts::default() };
@@ -409,7 +412,7 @@ mod tests {
     #[test]
     fn beads_that_leave_nothing_open_or_are_none_of_the_walls_stay() {
         let (outline, parts) = strip_with_a_tooth();
-        let strip = PolygonSet::rectangle(dvec2(0.225, 0.0), dvec2(5.775, 0.45));
+        let strip = PolygonSet::rectangle(dvec2(0.225, 0.0), dvec2(9.775, 0.45));
         let mut covered = parts.clone();
         fill_spots(&mut covered, strip.contours(), &strip, &WIDTHS);
         assert_eq!(covered, parts);
